@@ -138,6 +138,14 @@ class Findings(StudyTest):
             env={**os.environ, **MPI_ENVIRONMENT},
         )
 
+    def test_quantity_that_ends_at_nothing(self):
+        """A beam that closes to a circle has turned by 2 pi, which is none."""
+        words = (ROLL_UP, "--vary", "Refinement=1,2", "--repeat", "1", "--watch", "tip rotation")
+        said = "is next to nothing where runs are compared"
+        self.assertIn(said, self.study(*words))
+        shutil.rmtree(self.folder)
+        self.assertNotIn(said, self.study(*words, "--norm", "max"))
+
     def test_nothing_refined(self):
         output = self.study(
             FLIGHT, "--vary", "form=Null-Space,Multipliers", "--watch", "other end", "--repeat", "1",

@@ -77,6 +77,10 @@ def drift(scalars, name):
     return max(values) if values else None
 
 
+# Of what it was before, a value that errors should not be relative to.
+NOTHING = 1e-3
+
+
 class Measure:
     """Brings histories to the same levels, and measures their differences."""
 
@@ -127,6 +131,17 @@ class Measure:
         for title, part in self.parts.items():
             size = self._norm(state[:, part])
             self.scale[title] = size if size > 0.0 else 1.0
+
+    def vanishing(self, history):
+        """Of quantities that are next to nothing where they are compared, by title: what distances are relative to, and
+        the largest value along a history."""
+        lengths = {
+            title: float(numpy.linalg.norm([history.columns[name] for name in self.columns[part]], axis=0).max())
+            for title, part in self.parts.items()
+        }
+        return {
+            title: (self.scale[title], most) for title, most in lengths.items() if self.scale[title] < NOTHING * most
+        }
 
     def sizes(self, difference):
         """The norm of each quantity, relative."""

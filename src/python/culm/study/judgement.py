@@ -190,11 +190,20 @@ class Judgement:
             measure.refer_to(one.value)
             for title in one.uncertainty:
                 one.uncertainty[title] *= before[title] / measure.scale[title]
+        self._note_vanishing()
         self.reference, self._held_out_reference = limits
         self.uncertainty = max(self.reference.uncertainty.values(), default=0.0)
         for index, point in self.points.items():
             if point.record.succeeded:
                 self._judge(point, self._histories[index], point.record.scalars())
+
+    def _note_vanishing(self):
+        for measure in self._measures():
+            for title, (size, most) in measure.vanishing(self._histories[max(self._histories)]).items():
+                self.notes.append(
+                    f"{title} is next to nothing where runs are compared, {size:.2g} of {most:.2g} at most: errors relative "
+                    "to that say little. --norm max compares along the whole run."
+                )
 
     def judge(self, record):
         """A run outside of the grid."""
