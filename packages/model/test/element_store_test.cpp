@@ -80,6 +80,9 @@ TEST(ElementStore, KnowsMassesOfAllUntilOthersAreForgotten) {
   five.store.place({1, 4});
   EXPECT_EQ(five.visited(), (std::vector{0, 1, 2, 3, 4}));
   EXPECT_EQ(five.weighed, (std::vector{3, 4, 3}));
+  // modes ask again and again
+  EXPECT_EQ(five.visited(), (std::vector{0, 1, 2, 3, 4}));
+  EXPECT_EQ(five.weighed.size(), 3U);
   five.store.forget_others();
   EXPECT_EQ(five.visited(), (std::vector{1, 4}));
   EXPECT_EQ(five.store[4].number, 4);

@@ -66,14 +66,15 @@ class ElementStore {
 
   /// Makes those that this rank evaluates, rising by number.
   void place(const std::vector<int>& items) {
-    others_.clear();
+    forget();
     local_.clear();
     local_.reserve(items.size());
     for (const int item : items) local_.push_back({make(item), nodes(item)});
     numbers_ = items;
+    is_placed_ = true;
   }
   void forget_others() {
-    others_.clear();
+    forget();
     only_local_ = true;
   }
 
@@ -84,15 +85,21 @@ class ElementStore {
   /// that this rank evaluates.
   template <class Visit>
   void for_masses(Visit visit) const {
-    std::size_t i = 0;
-    const int count = only_local_ ? static_cast<int>(local_.size()) : size();
-    for (int n = 0; n < count; ++n) {
-      const int item = only_local_ ? numbers_[index(n)] : n;
-      if (i < numbers_.size() && numbers_[i] == item) {
-        visit(local_[i].nodes, local_[i].element.mass());
-        ++i;
-      } else {
+    if (only_local_) {
+      for (const Item& one : local_) visit(one.nodes, one.element.mass());
+      return;
+    }
+    std::size_t here = 0, other = 0;
+    for (int item = 0; item < size(); ++item) {
+      if (here < numbers_.size() && numbers_[here] == item) {
+        visit(local_[here].nodes, local_[here].element.mass());
+        ++here;
+      } else if (!is_placed_) {
         visit(nodes(item), mass(item));
+      } else {
+        // modes ask once for each
+        if (other == masses_of_others_.size()) masses_of_others_.push_back(mass(item));
+        visit(nodes(item), masses_of_others_[other++]);
       }
     }
   }
@@ -103,6 +110,11 @@ class ElementStore {
     std::function<E(const Nodes&, int)> make;
     std::function<SlotMatrix<E::num_slots>(const Nodes&, int)> mass;
   };
+
+  void forget() {
+    others_.clear();
+    masses_of_others_ = {};
+  }
 
   const Maker& series_of(int item) const {
     return *(std::ranges::upper_bound(series_, item, {}, &Maker::first) - 1);
@@ -124,7 +136,10 @@ class ElementStore {
   std::vector<Maker> series_;
   std::vector<Item> local_;
   std::vector<int> numbers_;  // of local_ in the model
+  // of other ranks, once somebody has asked
   mutable std::unordered_map<int, E> others_;
+  mutable std::vector<SlotMatrix<E::num_slots>> masses_of_others_;
+  bool is_placed_ = false;
   bool only_local_ = false;
 };
 
