@@ -68,7 +68,9 @@ double SizeBudget::on_machine(double whole, double parts) const {
 void SizeBudget::take_beam(double elements, double nodes, const Where& where) {
   MemoryNeed need{nodes * on_machine(beam_node_whole, beam_node - beam_node_whole),
                   nodes * on_machine(0.0, beam_node_factors)};
-  if (demands_.modes > 0) need.modes = nodes * (beam_eigenproblem + mode_of_node * demands_.modes);
+  if (demands_.modes > 0) {
+    need.modes = nodes * on_machine(mode_of_node * demands_.modes, beam_eigenproblem);
+  }
   take(elements, need, where);
 }
 
@@ -80,7 +82,7 @@ void SizeBudget::take_shell(double elements, double layers, double narrow, const
   const double shown = std::min(layers, demands_.shown_layers);
   need.layers = elements * shown * demands_.layer_arrays * layer_array;
   if (demands_.modes > 0) {
-    need.modes = elements * (shell_eigenproblem + mode_of_node * demands_.modes);
+    need.modes = elements * on_machine(mode_of_node * demands_.modes, shell_eigenproblem);
   }
   take(elements, need, where);
 }

@@ -22,11 +22,11 @@ std::string named_solver(const Options& deck, const Phase& phase) {
   return fmt::format("; factors are those that 'Automatic' would take, '{}' may take more", name);
 }
 
-// Layers and modes, and factors that nobody shares, are on rank 0.
+// Layers, and factors that nobody shares, are on rank 0.
 std::string of_each(const model::MemoryNeed& need, bool shares_factors,
                     const model::Processes& processes) {
   if (processes.all == 1) return {};
-  const double shared = need.elements + (shares_factors ? need.factors : 0.0);
+  const double shared = need.elements + need.modes + (shares_factors ? need.factors : 0.0);
   const double most = need.total() - shared + shared / processes.here;
   return fmt::format(" on a machine with {} of {} processes, up to {:.3g} GB in one",
                      processes.here, processes.all, 1e-9 * most);

@@ -51,12 +51,17 @@ inline std::string general_method(const EigenSettings& settings, int size) {
   return size <= small_problem || 6 * settings.count > size ? "Dense" : "Spectra";
 }
 
-/// The same for a symmetric pencil, which has a method with distributed vectors as well.
+/// The same for a symmetric pencil, which has a method with distributed vectors as well. That one
+/// takes some three times as many solutions, so it serves where the vectors of a space, which each
+/// process has whole with Spectra, are more than some 400 MB.
 inline std::string symmetric_method(const EigenSettings& settings, int size,
                                     const parallel::Comm& comm) {
+  constexpr double most_numbers = 5e7;
+  constexpr double space = 4.0;  // vectors for each value
   if (settings.solver != "Automatic") return settings.solver;
   const std::string alone = general_method(settings, size);
-  return alone == "Spectra" && comm.size() > 1 ? "Anasazi" : alone;
+  const bool is_large = space * settings.count * size > most_numbers;
+  return alone == "Spectra" && is_large && comm.size() > 1 ? "Anasazi" : alone;
 }
 
 /// (A - shift B)^-1 B of a symmetric pencil, hence nu = 1 / (lambda - shift).
