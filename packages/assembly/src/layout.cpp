@@ -1,6 +1,5 @@
 #include <culm/assembly/layout.hpp>
 #include <culm/parallel/partition.hpp>
-#include <culm/parallel/shared_failure.hpp>
 
 #include <algorithm>
 
@@ -12,12 +11,9 @@ Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
   choose_owners(unknowns, neighbours);
   number_locally(unknowns, neighbours);
   build_pattern(unknowns, neighbours);
-  // the memory of one rank may end where that of others does not
-  parallel::together(comm_, [&] {
-    for (model::Batch* batch : model.batches()) {
-      batch->place(place(*batch, unknowns), unknowns.form());
-    }
-  });
+  for (model::Batch* batch : model.batches()) {
+    batch->place(place(*batch, unknowns), unknowns.form());
+  }
   runs_ = {};
 }
 

@@ -230,12 +230,13 @@ class IterativeSolver final : public LinearSolver {
   LinearResidual solve_directly(const Vector& b, Vector& x) {
     Ordering ordering = order_rows(*matrix_, comm_);
     const double need = 8.0 * ordering.fill.entries * (is_symmetric_ ? 0.5 : 1.0);
-    if (need > model_.memory) {
+    const double allowed = model_.memory * comm_.size();  // all ranks hold parts of the factors
+    if (need > allowed) {
       throw NumericalError(fmt::format(
           "The iterative solver did not converge in {} iterations, and the factors of MUMPS would "
           "need {:.2g} GB,\nmore than the {:.2g} GB that are allowed.\n"
           "Try: smaller steps, thicker or fewer elements, or more memory.",
-          most_iterations, 1e-9 * need, 1e-9 * model_.memory));
+          most_iterations, 1e-9 * need, 1e-9 * allowed));
     }
     ++failed_;
     multigrid_.reset();
