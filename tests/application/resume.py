@@ -616,7 +616,9 @@ def check_killed(folder):
         if path.exists():
             # the header states the length; culm checks the rest
             raw = path.read_bytes()
-            whole = len(raw) >= 24 and struct.unpack("<Q", raw[8:16])[0] == len(raw) - 24
+            # length of the content, and count of the numbers behind it
+            header = struct.unpack("<5Q", raw[:40]) if len(raw) >= 40 else (0,) * 5
+            whole = header[0] != 0 and header[1] + 8 * header[3] == len(raw) - 40
             demand(whole, f"{name} is not whole")
     text = (folder / "history.csv").read_text()
     demand(text.endswith("\n"), "the last line of history.csv was cut off")

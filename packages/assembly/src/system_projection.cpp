@@ -166,9 +166,7 @@ void System::save(const Motions& motions, std::string_view name, Snapshot& snaps
     ++i;
   });
   add_still(owned_nodes_.end());
-  std::vector<double> all(comm_.is_root() ? 6 * index(model_.nodes().size()) : 0);
-  gather_nodes(own, 6, all);
-  snapshot.set(name, std::move(all));
+  save_nodes(std::move(own), 6, name, snapshot);
 }
 
 System::Motions System::restore_motions(const Snapshot& snapshot, std::string_view name) const {

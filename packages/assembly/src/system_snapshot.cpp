@@ -46,11 +46,11 @@ model::State System::gather(const model::State& state) {
 model::Coordinates System::gather(const model::Coordinates& values) const {
   if (comm_.size() == 1 || values.empty()) return values;
   if (!comm_.is_root()) {
-    gather_slots(values, {});
+    gather_nodes(own_slots(values), 12, {});
     return values;
   }
   model::Coordinates all(values.size());
-  gather_slots(values, all);
+  gather_nodes(own_slots(values), 12, all);
   return all;
 }
 
@@ -74,14 +74,29 @@ void System::gather_nodes(std::span<const double> own, std::size_t of_node,
   });
 }
 
-void System::gather_slots(const model::Coordinates& values, std::span<double> all) const {
+// Writes numbers of all nodes, given those of the nodes of this rank.
+void System::save_nodes(std::vector<double> own, std::size_t of_node, std::string_view name,
+                        Snapshot& snapshot) const {
+  const std::size_t nodes = index(model_.nodes().size());
+  if (snapshot.is_shared() && comm_.size() > 1) {
+    RowRanges rows;
+    for (const int node : owned_nodes_) append_row(rows, index(node));
+    snapshot.add_table({std::string(name), nodes, of_node, std::move(rows), std::move(own)});
+    return;
+  }
+  std::vector<double> all(comm_.is_root() ? nodes * of_node : 0);
+  gather_nodes(own, of_node, all);
+  snapshot.set(name, std::move(all));
+}
+
+std::vector<double> System::own_slots(const model::Coordinates& values) const {
   std::vector<double> own;
   own.reserve(12 * owned_nodes_.size());
   for (const int node : owned_nodes_) {
     const double* slots = values.data() + model::NodeTable::offset(node);
     own.insert(own.end(), slots, slots + 12);
   }
-  gather_nodes(own, 12, all);
+  return own;
 }
 
 // Multipliers, unknowns of batches and reactions of all ranks on all.
@@ -127,9 +142,7 @@ void System::save(const model::Coordinates& values, std::string_view name,
   if (snapshot.is_for_memory() || comm_.size() == 1 || values.empty()) {
     snapshot.set(name, values);
   } else {
-    std::vector<double> all(comm_.is_root() ? values.size() : 0);
-    gather_slots(values, all);
-    snapshot.set(name, std::move(all));
+    save_nodes(own_slots(values), 12, name, snapshot);
   }
 }
 
@@ -159,7 +172,7 @@ void System::save(model::State& state, Snapshot& snapshot) {
     snapshot.set("system/carried",
                  carried_ ? std::span<const double>(*carried_) : std::span<const double>());
   } else {
-    snapshot.set("system/carried", gather_carried());
+    save_carried(snapshot);
   }
   const bool is_here = snapshot.is_for_memory();
   std::vector<double> numbers = memory(is_here ? model::Items::local : model::Items::owned);
@@ -234,14 +247,25 @@ void System::restore(const Snapshot& snapshot, model::State& state) {
 }
 
 // By global row, so that it does not depend on the number of ranks.
-std::vector<double> System::gather_carried() const {
-  if (!carried_) return {};
-  std::vector<double> all(layout_.rows().total(), nothing);
-  for (std::size_t row = 0; row < carried_->size(); ++row) {
-    all[static_cast<std::size_t>(layout_.rows().global(row))] = (*carried_)[row];
+void System::save_carried(Snapshot& snapshot) const {
+  const std::string name = "system/carried";
+  const auto total = static_cast<std::size_t>(layout_.rows().total());
+  if (!carried_) {
+    snapshot.set(name, {});
+  } else if (snapshot.is_shared() && comm_.size() > 1) {
+    RowRanges rows;
+    for (std::size_t row = 0; row < carried_->size(); ++row) {
+      append_row(rows, static_cast<std::size_t>(layout_.rows().global(row)));
+    }
+    snapshot.add_table({name, total, 1, std::move(rows), *carried_});
+  } else {
+    std::vector<double> all(total, nothing);
+    for (std::size_t row = 0; row < carried_->size(); ++row) {
+      all[static_cast<std::size_t>(layout_.rows().global(row))] = (*carried_)[row];
+    }
+    comm_.sum(all);
+    snapshot.set(name, std::move(all));
   }
-  comm_.sum(all);
-  return all;
 }
 
 void System::restore_carried(const std::vector<double>& all) {
@@ -253,13 +277,30 @@ void System::restore_carried(const std::vector<double>& all) {
   }
 }
 
+// How many entries of the matrix the ranks before this one have.
+std::size_t System::first_entry() const {
+  const std::size_t mine = std::as_const(*matrix_).values().size();
+  std::vector<double> ends(index(comm_.size()), 0.0);
+  for (int rank = comm_.rank(); rank < comm_.size(); ++rank) {
+    ends[index(rank)] = static_cast<double>(mine);
+  }
+  comm_.sum(ends);
+  return static_cast<std::size_t>(ends[index(comm_.rank())]) - mine;
+}
+
 void System::save_matrix(Snapshot& snapshot) const {
   const auto mine = std::as_const(*matrix_).values();
   snapshot.set("matrix/ranks", comm_.size());
-  if (snapshot.is_for_memory()) {
+  if (snapshot.is_for_memory() || comm_.size() == 1) {
     snapshot.set("matrix/values", mine);
   } else {
-    snapshot.set("matrix/values", comm_.gather(mine));
+    internal_check(snapshot.is_shared(), "a matrix of several ranks is written by all of them");
+    // the ranks one after the other
+    snapshot.add_table({"matrix/values",
+                        static_cast<std::size_t>(matrix_->total_entries()),
+                        1,
+                        {{first_entry(), mine.size()}},
+                        {mine.begin(), mine.end()}});
   }
   if (!tangent_point_.empty()) save(tangent_point_, "matrix/point", snapshot);
 }
@@ -273,14 +314,8 @@ bool System::restore_matrix(const Snapshot& snapshot) {
     return true;
   }
   const std::span<const double> all = snapshot.numbers("matrix/values", matrix_->total_entries());
-  // pieces are in the order of the ranks
-  std::vector<double> ends(index(comm_.size()), 0.0);
-  for (int rank = comm_.rank(); rank < comm_.size(); ++rank) {
-    ends[index(rank)] = static_cast<double>(values.size());
-  }
-  comm_.sum(ends);
-  const auto begin = index(static_cast<int>(ends[index(comm_.rank())])) - values.size();
-  std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(begin), values.size(), values.data());
+  std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(first_entry()), values.size(),
+              values.data());
   return true;
 }
 

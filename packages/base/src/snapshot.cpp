@@ -41,6 +41,9 @@ std::string_view take_text(std::string_view& bytes) {
   return text;
 }
 
+// What lacks to a multiple of eight.
+std::size_t rest_of_word(std::size_t length) { return (8 - length % 8) % 8; }
+
 [[noreturn]] void miss(std::string_view name) {
   throw FileError("the checkpoint has no '" + std::string(name) + "'");
 }
@@ -195,7 +198,12 @@ std::string Snapshot::encode() const {
   return bytes;
 }
 
-void Snapshot::encode(const Take& take) const {
+void Snapshot::encode(const Take& sink) const {
+  std::size_t length = 0;
+  const Take take = [&](std::string_view piece) {
+    length += piece.size();
+    sink(piece);
+  };
   std::vector<const Entry*> in_order;  // of the alphabet
   for (const Entry& entry : entries_) in_order.push_back(&entry);
   std::ranges::sort(in_order, {}, [this](const Entry* entry) { return name_of(*entry); });
@@ -212,21 +220,43 @@ void Snapshot::encode(const Take& take) const {
     put(name, take);
     put(text, take);
   }
+  put(tables_.size(), take);
+  for (const Table& table : tables_) {
+    put(table.name, take);
+    put(table.rows * table.width, take);
+  }
+  take(std::string(rest_of_word(length), '\0'));
 }
 
 Snapshot Snapshot::decode(std::string_view bytes) {
+  const std::size_t size = bytes.size();
+  const auto take_numbers = [&](std::size_t length) {
+    if (length % sizeof(double) != 0 || bytes.size() < length) fail();
+    std::vector<double> numbers(length / sizeof(double));
+    if (length > 0) std::memcpy(numbers.data(), bytes.data(), length);
+    bytes.remove_prefix(length);
+    return numbers;
+  };
   Snapshot snapshot;
   for (std::uint64_t left = take_number(bytes); left > 0; --left) {
     const std::string name(take_text(bytes));
-    const std::string_view raw = take_text(bytes);
-    if (raw.size() % sizeof(double) != 0) fail();
-    std::vector<double> numbers(raw.size() / sizeof(double));
-    if (!raw.empty()) std::memcpy(numbers.data(), raw.data(), raw.size());
-    snapshot.set(name, std::move(numbers));
+    snapshot.set(name, take_numbers(take_number(bytes)));
   }
   for (std::uint64_t left = take_number(bytes); left > 0; --left) {
     const std::string name(take_text(bytes));
     snapshot.set_text(name, std::string(take_text(bytes)));
+  }
+  std::vector<std::pair<std::string, std::size_t>> tables;
+  for (std::uint64_t left = take_number(bytes); left > 0; --left) {
+    std::string name(take_text(bytes));
+    tables.emplace_back(std::move(name), take_number(bytes));
+  }
+  const std::size_t filling = rest_of_word(size - bytes.size());
+  if (bytes.size() < filling) fail();
+  bytes.remove_prefix(filling);
+  for (const auto& [name, count] : tables) {
+    if (count > bytes.size() / sizeof(double)) fail();
+    snapshot.set(name, take_numbers(count * sizeof(double)));
   }
   if (!bytes.empty()) fail();
   return snapshot;

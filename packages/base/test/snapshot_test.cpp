@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -30,6 +31,27 @@ TEST(Snapshot, ComesBackBitByBit) {
   EXPECT_EQ(back.integer("steps"), 12345678);
   EXPECT_EQ(back.text("deck"), std::string("<a>\0\n", 5));
   EXPECT_TRUE(back.has("deck") && back.has("steps") && !back.has("step"));
+}
+
+TEST(Snapshot, TablesOfAllRanksFollowAndAreNumbersThen) {
+  for (const char* title : {"a", "of another length"}) {
+    Snapshot snapshot(Snapshot::Use::shared);
+    snapshot.set("own", {1.0, 2.0});
+    snapshot.set_text("title", title);
+    // of the first table this rank has one row, of the second none
+    snapshot.add_table({"first", 2, 3, {{1, 1}}, {4.0, 5.0, 6.0}});
+    snapshot.add_table({"second", 1, 1, {}, {}});
+    std::string bytes = snapshot.encode();
+    EXPECT_EQ(bytes.size() % sizeof(double), 0);
+    const std::array<double, 7> numbers{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+    bytes.append(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
+    const Snapshot back = Snapshot::decode(bytes);
+    EXPECT_EQ(back.copy("own"), (std::vector<double>{1.0, 2.0}));
+    EXPECT_EQ(back.text("title"), title);
+    EXPECT_EQ(back.copy("first"), (std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
+    EXPECT_EQ(back.number("second"), 7.0);
+    EXPECT_THROW(Snapshot::decode(bytes.substr(0, bytes.size() - 8)), FileError);
+  }
 }
 
 TEST(Snapshot, SaysWhatIsMissing) {

@@ -9,12 +9,15 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 namespace culm::output {
 
@@ -22,10 +25,12 @@ namespace {
 
 struct CheckpointHeader {
   std::uint64_t magic;
-  std::uint64_t length;    // of what follows
-  std::uint64_t checksum;  // of what follows
+  std::uint64_t length;    // of the content
+  std::uint64_t checksum;  // of the content
+  std::uint64_t count;     // of the numbers that follow it
+  std::uint64_t sum;       // of the numbers
 };
-constexpr std::uint64_t checkpoint_magic = 0x31504b434d4c5543;  // "CULMCKP1"
+constexpr std::uint64_t checkpoint_magic = 0x32504b434d4c5543;  // "CULMCKP2"
 
 class Descriptor {
  public:
@@ -52,63 +57,18 @@ bool write_all(int file, std::span<const std::byte> bytes) {
   return true;
 }
 
-// The body of a checkpoint, which grows piece by piece behind its header.
-class Body {
- public:
-  explicit Body(int file) : file_(file) { write(std::as_bytes(std::span(&header_, 1))); }
-
-  void take(std::string_view piece) {
-    while (!piece.empty() && error_ == 0) {
-      const std::size_t count = std::min(piece.size(), whole_words - waiting_.size());
-      waiting_ += piece.substr(0, count);
-      piece.remove_prefix(count);
-      if (waiting_.size() == whole_words) flush();
-    }
+// That of the numbers behind the content, in pieces, as they need not lie as numbers do.
+std::uint64_t sum_behind(std::string_view bytes, std::size_t length) {
+  std::array<double, 1024> piece{};
+  std::uint64_t sum = 0;
+  const std::size_t count = (bytes.size() - length) / sizeof(double);
+  for (std::size_t first = 0; first < count; first += piece.size()) {
+    const std::size_t size = std::min(piece.size(), count - first);
+    std::memcpy(piece.data(), bytes.data() + length + first * sizeof(double),
+                size * sizeof(double));
+    sum += sum_of_numbers(std::span(piece).first(size), first);
   }
-  // @return errno of what could not be written, or 0
-  int finish() {
-    flush();
-    header_.magic = checkpoint_magic;
-    note(::lseek(file_, 0, SEEK_SET) == 0);
-    write(std::as_bytes(std::span(&header_, 1)));
-    note(::fsync(file_) == 0);
-    return error_;
-  }
-
- private:
-  static constexpr std::size_t whole_words = std::size_t{1} << 20;
-
-  void note(bool is_done) {
-    if (!is_done && error_ == 0) error_ = errno;
-  }
-  void write(std::span<const std::byte> bytes) {
-    if (error_ == 0) note(write_all(file_, bytes));
-  }
-  void flush() {
-    const auto bytes = std::as_bytes(std::span(waiting_));
-    header_.checksum = checksum(bytes, header_.checksum);
-    header_.length += bytes.size();
-    write(bytes);
-    waiting_.clear();
-  }
-
-  int file_;
-  int error_ = 0;
-  std::string waiting_;
-  CheckpointHeader header_{0, 0, checksum({})};  // without its magic number until all is written
-};
-
-void write_to_disk(const std::filesystem::path& path,
-                   const std::function<void(const TakePiece&)>& content) {
-  const Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  try {
-    Body body(file.number());
-    content([&](std::string_view piece) { body.take(piece); });
-    if (const int error = body.finish(); error != 0) cannot_write(path, error);
-  } catch (...) {
-    ::unlink(path.c_str());
-    throw;
-  }
+  return sum;
 }
 
 // Names reach the disk with their folder. Some network file systems refuse this; then there is
@@ -125,18 +85,92 @@ std::filesystem::path previous_checkpoint(const std::filesystem::path& path) {
   return path.string() + ".old";
 }
 
-void write_checkpoint(const std::filesystem::path& path, std::string_view content) {
-  write_checkpoint(path, [&](const TakePiece& take) { take(content); });
+/// The file, which grows piece by piece behind its header.
+class CheckpointFile::Writer {
+ public:
+  explicit Writer(std::filesystem::path name)
+      : name_(std::move(name)), file_(name_, O_WRONLY | O_CREAT | O_TRUNC) {
+    write(std::as_bytes(std::span(&header_, 1)));
+  }
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  ~Writer() {
+    if (!is_finished_) ::unlink(name_.c_str());
+  }
+
+  const std::filesystem::path& name() const { return name_; }
+  void take(std::string_view piece) {
+    while (!piece.empty()) {
+      const std::size_t count = std::min(piece.size(), whole_words - waiting_.size());
+      waiting_ += piece.substr(0, count);
+      piece.remove_prefix(count);
+      if (waiting_.size() == whole_words) flush();
+    }
+  }
+  std::uint64_t make_room(std::uint64_t count) {
+    flush();
+    const std::uint64_t place = sizeof header_ + header_.length;
+    header_.count = count;
+    demand(::ftruncate(file_.number(), static_cast<off_t>(place + count * sizeof(double))) == 0);
+    return place;
+  }
+  void finish(std::uint64_t sum) {
+    flush();
+    header_.magic = checkpoint_magic;
+    header_.sum = sum;
+    demand(::lseek(file_.number(), 0, SEEK_SET) == 0);
+    write(std::as_bytes(std::span(&header_, 1)));
+    demand(::fsync(file_.number()) == 0);
+    is_finished_ = true;
+  }
+
+ private:
+  static constexpr std::size_t whole_words = std::size_t{1} << 20;
+
+  void demand(bool is_done) const {
+    if (!is_done) cannot_write(name_, errno);
+  }
+  void write(std::span<const std::byte> bytes) { demand(write_all(file_.number(), bytes)); }
+  void flush() {
+    const auto bytes = std::as_bytes(std::span(waiting_));
+    header_.checksum = checksum(bytes, header_.checksum);
+    header_.length += bytes.size();
+    write(bytes);
+    waiting_.clear();
+  }
+
+  std::filesystem::path name_;
+  Descriptor file_;
+  bool is_finished_ = false;
+  std::string waiting_;
+  // without its magic number until all is written
+  CheckpointHeader header_{0, 0, checksum({}), 0, 0};
+};
+
+CheckpointFile::CheckpointFile(const std::filesystem::path& path)
+    : writer_(std::make_unique<Writer>(temporary_name(path))), path_(path) {}
+CheckpointFile::CheckpointFile(CheckpointFile&&) noexcept = default;
+CheckpointFile& CheckpointFile::operator=(CheckpointFile&&) noexcept = default;
+CheckpointFile::~CheckpointFile() = default;
+
+const std::filesystem::path& CheckpointFile::name() const { return writer_->name(); }
+void CheckpointFile::take(std::string_view piece) { writer_->take(piece); }
+std::uint64_t CheckpointFile::make_room(std::uint64_t count) { return writer_->make_room(count); }
+
+void CheckpointFile::finish(std::uint64_t sum) {
+  writer_->finish(sum);
+  std::error_code ignored;
+  if (std::filesystem::exists(path_, ignored)) {
+    move_into_place(path_, previous_checkpoint(path_));
+  }
+  move_into_place(writer_->name(), path_);
+  sync_folder(path_);
 }
 
-void write_checkpoint(const std::filesystem::path& path,
-                      const std::function<void(const TakePiece&)>& content) {
-  const std::filesystem::path temporary = temporary_name(path);
-  write_to_disk(temporary, content);
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) move_into_place(path, previous_checkpoint(path));
-  move_into_place(temporary, path);
-  sync_folder(path);
+void write_checkpoint(const std::filesystem::path& path, std::string_view content) {
+  CheckpointFile file(path);
+  file.take(content);
+  file.finish();
 }
 
 std::string read_checkpoint(const std::filesystem::path& path) {
@@ -147,11 +181,13 @@ std::string read_checkpoint(const std::filesystem::path& path) {
   if (header.magic != checkpoint_magic)
     throw FileError(path.string(), "is no checkpoint of this version");
   content.erase(0, sizeof header);
-  if (content.size() != header.length) {
+  const std::uint64_t whole = header.length + header.count * sizeof(double);
+  if (content.size() != whole || header.count > whole / sizeof(double)) {
     throw FileError(path.string(), "was cut off: it holds " + std::to_string(content.size()) +
-                                       " of " + std::to_string(header.length) + " bytes");
+                                       " of " + std::to_string(whole) + " bytes");
   }
-  if (checksum(std::as_bytes(std::span(content))) != header.checksum) {
+  if (checksum(std::as_bytes(std::span(content)).first(header.length)) != header.checksum ||
+      sum_behind(content, header.length) != header.sum) {
     throw FileError(path.string(), "is damaged: its checksum is wrong");
   }
   return content;

@@ -15,14 +15,6 @@ std::uint64_t fold(std::uint64_t sum, std::uint64_t next) {
   return (sum ^ next) * 0x100000001b3U + 1;
 }
 
-// The mixing function of splitmix64 (Steele, Lea, Flood 2014), a bijection: terms of a sum must not
-// resemble each other.
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-  z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-  return z ^ (z >> 31U);
-}
-
 template <class T>
 std::span<const std::byte> bytes_of(const T& numbers) {
   return std::as_bytes(std::span(numbers));

@@ -1,5 +1,6 @@
 #include <culm/base/error.hpp>
 #include <culm/output/checkpoint_file.hpp>
+#include <culm/output/checksum.hpp>
 
 #include "read_back.hpp"
 #include "sample_model.hpp"
@@ -7,8 +8,11 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <array>
 #include <csignal>
+#include <cstdint>
 #include <fstream>
+#include <span>
 #include <string>
 
 namespace culm::output {
@@ -47,23 +51,55 @@ TEST(CheckpointFile, PiecesAreReadAsOneContent) {
   std::string whole;
   for (int i = 0; i < 700'000; ++i) whole += static_cast<char>(1LL * i * i % 251);
   write_checkpoint(folder / "whole", whole + whole + whole + "end");
-  write_checkpoint(folder / "pieces", [&](const TakePiece& take) {
-    for (int i = 0; i < 3; ++i) take(whole);
-    for (const char* letter : {"e", "", "n", "d"}) take(letter);
-  });
+  CheckpointFile file(folder / "pieces");
+  for (int i = 0; i < 3; ++i) file.take(whole);
+  for (const char* letter : {"e", "", "n", "d"}) file.take(letter);
+  file.finish();
   EXPECT_EQ(read_text_file(folder / "whole"), read_text_file(folder / "pieces"));
   EXPECT_EQ(read_checkpoint(folder / "pieces"), whole + whole + whole + "end");
+}
+
+TEST(CheckpointFile, NumbersThatOthersWriteFollowTheContent) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "c";
+  const std::array<double, 5> numbers{1.0, -0.0, 3.5, 1e300, 4.0};
+  const auto write_them = [&](std::uint64_t sum) {
+    CheckpointFile file(path);
+    file.take("8 bytes.");
+    const std::uint64_t place = file.make_room(numbers.size());
+    std::fstream other(file.name(), std::ios::binary | std::ios::in | std::ios::out);
+    other.seekp(static_cast<std::streamoff>(place));
+    other.write(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
+    other.close();
+    file.finish(sum);
+  };
+  // in two pieces, of which the later one comes first
+  const std::span all(numbers);
+  write_them(sum_of_numbers(all.subspan(2), 2) + sum_of_numbers(all.first(2)));
+  const std::string expected =
+      "8 bytes." + std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
+  EXPECT_EQ(read_checkpoint(path), expected);
+  const std::string sound = read_text_file(path);
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    std::string damaged = sound;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+    write(path, damaged);
+    EXPECT_NE(message(path), "no error") << "byte " << i;
+  }
+  write_them(sum_of_numbers(all) + 1);
+  EXPECT_EQ(message(path), path.string() + ": is damaged: its checksum is wrong");
 }
 
 TEST(CheckpointFile, WhatFailsHalfwayLeavesTheLastOne) {
   const TemporaryFolder folder;
   const std::filesystem::path path = folder / "c";
   write_checkpoint(path, "sound");
-  const auto fail = [](const TakePiece& take) {
-    take("half");
+  const auto fail = [&] {
+    CheckpointFile file(path);
+    file.take("half");
     throw std::bad_alloc();
   };
-  EXPECT_THROW(write_checkpoint(path, fail), std::bad_alloc);
+  EXPECT_THROW(fail(), std::bad_alloc);
   EXPECT_EQ(read_checkpoint(path), "sound");
   const auto files = std::filesystem::directory_iterator(folder.path());
   EXPECT_EQ(std::distance(begin(files), end(files)), 1);

@@ -1,6 +1,7 @@
 #include <culm/parallel/comm.hpp>
 #include <culm/parallel/patience.hpp>
 
+#include <algorithm>
 #include <numeric>
 
 namespace culm::parallel {
@@ -66,6 +67,11 @@ void Comm::sum(std::span<double> values) const {
                 comm_);
 }
 
+std::uint64_t Comm::wrapping_sum(std::uint64_t value) const {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_UINT64_T, MPI_SUM, comm_);
+  return value;
+}
+
 void Comm::await_root() const {
   char word = 0;
   MPI_Request request = MPI_REQUEST_NULL;
@@ -82,13 +88,23 @@ std::string Comm::broadcast(std::string text) const {
   auto length = static_cast<unsigned long long>(text.size());
   MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG_LONG, 0, comm_);
   text.resize(length);
-  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, 0, comm_);
+  // MPI counts with int
+  constexpr std::size_t most = std::size_t{1} << 30;
+  for (std::size_t from = 0; from < text.size(); from += most) {
+    MPI_Bcast(text.data() + from, static_cast<int>(std::min(most, text.size() - from)), MPI_CHAR, 0,
+              comm_);
+  }
   return text;
 }
 
 void Comm::broadcast(std::span<double> values) const {
   if (size_ == 1) return;
   MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_DOUBLE, 0, comm_);
+}
+
+void Comm::broadcast(std::span<std::uint64_t> values) const {
+  if (size_ == 1) return;
+  MPI_Bcast(values.data(), static_cast<int>(values.size()), MPI_UINT64_T, 0, comm_);
 }
 
 std::vector<int> Comm::gather(std::span<const int> piece) const {

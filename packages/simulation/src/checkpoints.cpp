@@ -1,8 +1,6 @@
 #include "checkpoints.hpp"
 
-#include <culm/output/checkpoint_file.hpp>
-
-#include "on_root.hpp"
+#include "shared_checkpoint.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -63,10 +61,7 @@ Checkpoints::Demand Checkpoints::demand() {
 
 void Checkpoints::write(const Snapshot& snapshot) {
   const double before = request_.elapsed();
-  on_root(comm_, [&] {
-    output::write_checkpoint(checkpoint_path(folder_),
-                             [&](const output::TakePiece& take) { snapshot.encode(take); });
-  });
+  write_shared_checkpoint(comm_, checkpoint_path(folder_), snapshot);
   const double now = request_.elapsed();
   const double rest = is_early_ ? std::min(interval_, now - begun_) : interval_;
   due_ = now + (interval_ > 0.0 ? std::max(rest, (now - before) / largest_share) : 0.0);

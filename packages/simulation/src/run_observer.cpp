@@ -215,7 +215,7 @@ void RunObserver::watch_turns(double time, const model::State& state) {
 bool RunObserver::write_checkpoint() {
   if (checkpoints_ == nullptr || !checkpoints_->are_active() || !has_stepped_) return false;
   const Ledger::Scope scope(ledger_, checkpoint_effect_);
-  Snapshot snapshot;
+  Snapshot snapshot(Snapshot::Use::shared);
   save(snapshot);
   stepper_->save(snapshot);
   if (coupled_ != nullptr) coupled_->save(snapshot);

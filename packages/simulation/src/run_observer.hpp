@@ -39,7 +39,7 @@ struct Balance {
 class RunObserver final : public analysis::Observer {
  public:
   /// Version of what a checkpoint holds.
-  static constexpr int checkpoint_format = 11;
+  static constexpr int checkpoint_format = 12;
 
   /// @param checkpoints  null: there are none, and nobody stops the run
   RunObserver(Ledger& ledger, Findings& findings, ResultFiles& files, Checkpoints* checkpoints,

@@ -255,8 +255,11 @@ class System {
   void find_needed_nodes();
   void gather_forces(model::State& state);
   void gather_nodes(std::span<const double> own, std::size_t of_node, std::span<double> all) const;
-  void gather_slots(const model::Coordinates& values, std::span<double> all) const;
-  std::vector<double> gather_carried() const;
+  void save_nodes(std::vector<double> own, std::size_t of_node, std::string_view name,
+                  Snapshot& snapshot) const;
+  std::vector<double> own_slots(const model::Coordinates& values) const;
+  void save_carried(Snapshot& snapshot) const;
+  std::size_t first_entry() const;
   void restore_carried(const std::vector<double>& all);
   std::vector<double> drive_speed(model::State& state, double probe);
   template <class Action>

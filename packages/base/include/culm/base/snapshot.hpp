@@ -1,5 +1,7 @@
 #pragma once
 
+#include <culm/base/row_ranges.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace culm {
@@ -21,16 +24,30 @@ class Snapshot {
   /// What it is good for.
   enum class Use {
     files,   ///< whole on rank 0, and the same for any number of ranks
+    shared,  ///< the same, but of what is large each rank keeps its own rows, to write them itself
     memory,  ///< what each rank has, to go back within a run: no communication
   };
   explicit Snapshot(Use use = Use::files) : use_(use) {}
   bool is_for_memory() const { return use_ == Use::memory; }
+  bool is_shared() const { return use_ == Use::shared; }
 
   void set(std::string_view name, std::span<const double> numbers);
   void set(std::string_view name, std::vector<double>&& numbers);
   void set(std::string_view name, std::initializer_list<double> numbers);
   void set(std::string_view name, double number);
   void set_text(std::string_view name, std::string text);
+
+  /// The rows that this rank has of a table that all ranks have together.
+  struct Table {
+    std::string name;
+    std::size_t rows = 0;  ///< of all ranks
+    std::size_t width = 1;
+    RowRanges own;
+    std::vector<double> numbers;  ///< row after row; shape (count_rows(own) * width)
+  };
+  /// All ranks add the same tables in the same order. Once decoded, each is numbers of its name.
+  void add_table(Table table) { tables_.push_back(std::move(table)); }
+  const std::vector<Table>& tables() const { return tables_; }
 
   /// Good until something is set. Throws FileError if there is nothing of this name.
   std::span<const double> numbers(std::string_view name) const;
@@ -43,7 +60,8 @@ class Snapshot {
   const std::string& text(std::string_view name) const;
   bool has(std::string_view name) const;
 
-  /// As bytes, in the order of this machine.
+  /// As bytes, in the order of this machine, a multiple of eight of them; but the numbers of
+  /// tables, which are to follow, one table after the other.
   std::string encode() const;
   /// The same piece by piece.
   void encode(const std::function<void(std::string_view)>& take) const;
@@ -73,6 +91,7 @@ class Snapshot {
   std::string names_;
   std::vector<double> small_;
   std::map<std::string, std::string, std::less<>> texts_;
+  std::vector<Table> tables_;
 };
 
 }  // namespace culm

@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
@@ -31,6 +32,8 @@ class Comm {
   double sum(double value) const;
   /// Elementwise, in place.
   void sum(std::span<double> values) const;
+  /// Of checksums, which wrap around.
+  std::uint64_t wrapping_sum(std::uint64_t value) const;
 
   /// Waits for the root, which may be with another program for long, and leaves the processor to
   /// others meanwhile: in all other calls here, as in MPI's own, a rank that waits keeps it busy.
@@ -39,6 +42,7 @@ class Comm {
   /// Text of the root on all ranks.
   std::string broadcast(std::string text) const;
   void broadcast(std::span<double> values) const;
+  void broadcast(std::span<std::uint64_t> values) const;
 
   /// Pieces of all ranks one after the other, on the root; empty elsewhere.
   std::vector<int> gather(std::span<const int> piece) const;
