@@ -175,6 +175,10 @@ EVERY_STEP = settings("Output/Checkpoint Interval=0")
 SHELL = [INPUTS / "shell/tumbling_cylinder.xml", "--quiet"]
 SHELL += settings("Analyses/fly/End Time=1.5", "Output/Every=3")
 
+# Enough nodes that each of several ranks writes its own rows of states.
+MANY_NODES = [INPUTS / "beam/pendulum.xml", "--quiet"]
+MANY_NODES += settings("Structures/beam/Curve/Elements=3000", "Output/Every=3", "Output/Velocities=true")
+
 BROKEN = "statics with a load that moves nothing"  # which is a promise that is broken
 
 # Decks with all that a run remembers: counted turns, drives, multipliers, cut-backs and growth of
@@ -208,6 +212,7 @@ PARTS = {
         *settings("Analyses/motion/End Time=0.3"),
     ],
     "shell": SHELL + settings("Solver/Linear Solver=KLU2"),
+    "many nodes": MANY_NODES + settings("Analyses/motion/End Time=0.4"),
     "mumps": SHELL + settings("Solver/Linear Solver=MUMPS"),
     "two analyses": TORSION
     + settings("Analyses/more/Type=Dynamic", "Analyses/more/Step=0.02")
@@ -223,7 +228,7 @@ PARTS = {
 
 # Each start of mpiexec takes its time, so on several ranks only what is shared out in different ways.
 # Not MUMPS: there it is not the same itself from run to run.
-ON_SEVERAL_RANKS = ("multipliers", "path", "adaptive steps", "shell", "sequence")
+ON_SEVERAL_RANKS = ("multipliers", "path", "adaptive steps", "shell", "many nodes", "sequence")
 
 
 def run_in_parts(name, words):
@@ -680,6 +685,7 @@ KILLED = {
         INPUTS / "shell/tumbling_cylinder.xml",
         *settings("Output/Every=3", "Analyses/fly/End Time=1.5", "Solver/Linear Solver=KLU2"),
     ],
+    "many nodes": MANY_NODES + settings("Analyses/motion/End Time=1"),
 }
 
 

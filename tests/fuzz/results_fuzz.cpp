@@ -31,7 +31,7 @@ SoundRun record_run() {
   output::Recorder recorder(path, {"bent tube", "0", "<ParameterList/>", name}, meshes,
                             {{"energy", "J"}, {"drift", ""}});
   for (int i = 0; i < 2; ++i) {
-    recorder.record(output::sample_picture(meshes, i));
+    recorder.record(meshes, output::sample_picture(meshes, i));
     recorder.add_history({0.5 * i, std::array{1.0 + i, 2.0}, 0, i});
   }
   SoundRun run;

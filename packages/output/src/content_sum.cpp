@@ -15,6 +15,12 @@ std::uint64_t fold(std::uint64_t sum, std::uint64_t next) {
   return (sum ^ next) * 0x100000001b3U + 1;
 }
 
+std::uint64_t fold_all(std::span<const hsize_t> shape) {
+  std::uint64_t extents = shape.size();
+  for (const hsize_t extent : shape) extents = fold(extents, extent);
+  return extents;
+}
+
 template <class T>
 std::span<const std::byte> bytes_of(const T& numbers) {
   return std::as_bytes(std::span(numbers));
@@ -39,9 +45,9 @@ void add_dataset(const Hdf5File& file, hid_t where, const std::string& name, Con
   add_attributes(file, open_dataset(file, where, name).id(), sum);
   const Shape shape = read_shape(file, where, name);
   if (holds_integers(file, where, name)) {
-    sum.add_dataset(name, shape, bytes_of(read_ints(file, where, name)));
+    sum.add_dataset(name, shape, read_ints(file, where, name));
   } else {
-    sum.add_dataset(name, shape, bytes_of(read_doubles(file, where, name)));
+    sum.add_dataset(name, shape, sum_of_numbers(read_doubles(file, where, name)));
   }
 }
 
@@ -62,10 +68,13 @@ void add_content(const Hdf5File& file, hid_t group, ContentSum& sum) {
 void ContentSum::add_group(std::string_view name) { add('g', name, 0, {}); }
 
 void ContentSum::add_dataset(std::string_view name, std::span<const hsize_t> shape,
-                             std::span<const std::byte> content) {
-  std::uint64_t extents = shape.size();
-  for (const hsize_t extent : shape) extents = fold(extents, extent);
-  add('d', name, extents, content);
+                             std::span<const int> numbers) {
+  add('i', name, fold_all(shape), std::as_bytes(numbers));
+}
+
+void ContentSum::add_dataset(std::string_view name, std::span<const hsize_t> shape,
+                             std::uint64_t sum) {
+  add_sum('d', name, fold_all(shape), sum);
 }
 
 void ContentSum::add_attribute(std::string_view name, std::span<const std::byte> content) {
@@ -75,10 +84,14 @@ void ContentSum::add_attribute(std::string_view name, std::span<const std::byte>
 
 void ContentSum::add(char kind, std::string_view name, std::uint64_t shape,
                      std::span<const std::byte> content) {
+  add_sum(kind, name, shape, fold(content.size(), checksum(content)));
+}
+
+void ContentSum::add_sum(char kind, std::string_view name, std::uint64_t shape, std::uint64_t sum) {
   std::uint64_t item =
       fold(static_cast<unsigned char>(kind), checksum(std::as_bytes(std::span(name))));
   item = fold(fold(item, name.size()), shape);
-  value_ += mix(fold(fold(item, content.size()), checksum(content)));
+  value_ += mix(fold(item, sum));
 }
 
 std::uint64_t chain(std::uint64_t sum, std::span<const std::byte> content) {

@@ -21,7 +21,9 @@ class ContentSum {
   /// A group; its content is added by itself.
   void add_group(std::string_view name);
   void add_dataset(std::string_view name, std::span<const hsize_t> shape,
-                   std::span<const std::byte> content);
+                   std::span<const int> numbers);
+  /// @param sum  of doubles, by sum_of_numbers()
+  void add_dataset(std::string_view name, std::span<const hsize_t> shape, std::uint64_t sum);
   void add_attribute(std::string_view name, std::span<const std::byte> content);
 
   std::uint64_t value() const { return value_; }
@@ -29,6 +31,7 @@ class ContentSum {
  private:
   void add(char kind, std::string_view name, std::uint64_t shape,
            std::span<const std::byte> content);
+  void add_sum(char kind, std::string_view name, std::uint64_t shape, std::uint64_t sum);
 
   std::uint64_t value_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <culm/base/error.hpp>
 #include <culm/base/read_file.hpp>
+#include <culm/output/checksum.hpp>
 
 #include "journal_driver.hpp"
 #include "replace_file.hpp"
@@ -151,28 +152,45 @@ Handle Hdf5File::simple_space(const Shape& shape) const {
           H5Sclose};
 }
 
-Handle Hdf5File::make_dataset(hid_t where, const std::string& name, hid_t type,
-                              const Shape& shape) {
+Handle Hdf5File::make_dataset(hid_t where, const std::string& name, hid_t type, const Shape& shape,
+                              hid_t creation) {
   const Handle space = shape.empty()
                            ? Handle(check(H5Screate(H5S_SCALAR), "make data space"), H5Sclose)
                            : simple_space(shape);
-  return {check(H5Dcreate2(where, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT,
-                           H5P_DEFAULT),
-                "create dataset " + name),
-          H5Dclose};
+  return {
+      check(H5Dcreate2(where, name.c_str(), type, space.id(), H5P_DEFAULT, creation, H5P_DEFAULT),
+            "create dataset " + name),
+      H5Dclose};
 }
 
 void Hdf5File::write(hid_t where, const std::string& name, std::span<const double> values,
                      const Shape& shape) {
-  sum_.add_dataset(name, shape, std::as_bytes(values));
-  const Handle dataset = make_dataset(where, name, H5T_IEEE_F64LE, shape);
-  check(H5Dwrite(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
-        "write dataset " + name);
+  add_to_sum(name, shape, sum_of_numbers(values));
+  fill(make_dataset(where, name, H5T_IEEE_F64LE, shape), values);
+}
+
+Handle Hdf5File::make_table(hid_t where, const std::string& name, const Shape& shape) {
+  const Handle creation(check(H5Pcreate(H5P_DATASET_CREATE), "make dataset"), H5Pclose);
+  check(H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY), "make dataset");
+  check(H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER), "make dataset");
+  return make_dataset(where, name, H5T_IEEE_F64LE, shape, creation.id());
+}
+
+std::optional<std::uint64_t> Hdf5File::room_of(const Handle& table) const {
+  const haddr_t place = H5Dget_offset(table.id());
+  const JournaledFile* const file = journaled_file(file_.id());
+  if (place == HADDR_UNDEF || file == nullptr || place < file->committed_size()) return {};
+  return place;
+}
+
+void Hdf5File::fill(const Handle& table, std::span<const double> values) {
+  check(H5Dwrite(table.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+        "write dataset");
 }
 
 void Hdf5File::write(hid_t where, const std::string& name, std::span<const int> values) {
   const Shape shape{values.size()};
-  sum_.add_dataset(name, shape, std::as_bytes(values));
+  sum_.add_dataset(name, shape, values);
   const Handle dataset = make_dataset(where, name, H5T_STD_I32LE, shape);
   check(H5Dwrite(dataset.id(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
         "write dataset " + name);

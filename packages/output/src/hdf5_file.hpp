@@ -5,6 +5,7 @@
 #include "content_sum.hpp"
 #include "hdf5_handle.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -47,6 +48,16 @@ class Hdf5File {
              const Shape& shape);
   void write(hid_t where, const std::string& name, std::span<const int> values);
   void write(hid_t where, const std::string& name, const std::string& text);
+  /// A table of doubles, which come by fill(), or from other processes into its room.
+  Handle make_table(hid_t where, const std::string& name, const Shape& shape);
+  /// Where the numbers of such a table begin in the file [bytes], if others can write there until
+  /// the next flush; not where that would overwrite what counts today.
+  std::optional<std::uint64_t> room_of(const Handle& table) const;
+  void fill(const Handle& table, std::span<const double> values);
+  /// Adds a table to the sum. @param sum  of its numbers, by sum_of_numbers()
+  void add_to_sum(const std::string& name, const Shape& shape, std::uint64_t sum) {
+    sum_.add_dataset(name, shape, sum);
+  }
   /// An empty table of doubles that grows by append_rows().
   Handle make_growing_table(hid_t where, const std::string& name, hsize_t columns);
   /// @param first   number of rows so far
@@ -58,7 +69,8 @@ class Hdf5File {
   void set_attribute(hid_t where, const std::string& name, const std::string& text);
   void set_attribute(hid_t where, const std::string& name, std::span<const std::string> texts);
 
-  /// The sum of all that was written since this was last asked for, rows of tables excepted.
+  /// The sum of all that was written since this was last asked for, rows of tables that grow and
+  /// tables that others fill excepted.
   /// @see sum_of_group
   std::uint64_t take_sum() { return std::exchange(sum_, {}).value(); }
 
@@ -75,7 +87,8 @@ class Hdf5File {
 
   [[noreturn]] void fail(std::string_view action) const;
   void start_journal();
-  Handle make_dataset(hid_t where, const std::string& name, hid_t type, const Shape& shape);
+  Handle make_dataset(hid_t where, const std::string& name, hid_t type, const Shape& shape,
+                      hid_t creation = H5P_DEFAULT);
   void write_attribute(hid_t where, const std::string& name, hid_t type, hid_t space,
                        const void* data);
   Handle text_type() const;

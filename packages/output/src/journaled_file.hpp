@@ -39,6 +39,8 @@ class JournaledFile {
   /// Length of the file from the next commit on.
   void resize(std::uint64_t size);
   std::uint64_t size() const { return size_; }
+  /// Its length at the last commit: what is behind counts from the next one on.
+  std::uint64_t committed_size() const { return committed_size_; }
   void commit();
 
   /// Why something could not be written, after which nothing more is; empty if all could.

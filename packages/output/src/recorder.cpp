@@ -1,7 +1,9 @@
 #include <culm/base/absent.hpp>
 #include <culm/base/error.hpp>
 #include <culm/base/text.hpp>
+#include <culm/output/checksum.hpp>
 #include <culm/output/recorder.hpp>
+#include <culm/output/state_tables.hpp>
 
 #include "content_sum.hpp"
 #include "hdf5_copy.hpp"
@@ -10,7 +12,6 @@
 #include "mesh_tables.hpp"
 #include "names.hpp"
 #include "replace_file.hpp"
-#include "state_tables.hpp"
 
 #include <chrono>
 #include <utility>
@@ -20,7 +21,7 @@ namespace culm::output {
 namespace {
 
 // Version of the layout of the file, for readers.
-constexpr int format_version = 3;
+constexpr int format_version = 4;
 
 // Of tables: the number that stands for none, as netCDF has it.
 constexpr const char* fill_value = "_FillValue";
@@ -185,15 +186,16 @@ class Cleanup {
 /// The open file, its meshes and the place where the history ends.
 class Recorder::File {
  public:
-  File(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
-       const std::vector<HistoryColumn>& history)
-      : File(temporary_name(path), info, std::move(meshes), history, Unnamed{}) {
+  File(const std::filesystem::path& path, const RunInfo& info,
+       const std::vector<StructureMesh>& meshes, const std::vector<HistoryColumn>& history)
+      : File(temporary_name(path), info, meshes, history, Unnamed{}) {
     give_name(path);
   }
 
-  File(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
-       const std::vector<HistoryColumn>& history, const RecordMark& mark, const Recorded& recorded)
-      : File(temporary_name(path), info, std::move(meshes), history, Unnamed{}) {
+  File(const std::filesystem::path& path, const RunInfo& info,
+       const std::vector<StructureMesh>& meshes, const std::vector<HistoryColumn>& history,
+       const RecordMark& mark, const Recorded& recorded)
+      : File(temporary_name(path), info, meshes, history, Unnamed{}) {
     if (mark_.head_sum != mark.head_sum) {
       throw FileError(path.string(), "is of another model: its meshes or its columns differ");
     }
@@ -202,20 +204,34 @@ class Recorder::File {
     give_name(path);
   }
 
-  void record(const Picture& picture) {
-    check_picture(*meshes_, picture);
+  void begin(const Picture& picture) {
     file_.take_sum();
     const Handle step = file_.make_group(steps_.id(), step_name(picture.index));
     file_.set_attribute(step.id(), "time", picture.time);
     file_.set_attribute(step.id(), "index", picture.index);
     file_.set_attribute(step.id(), "analysis", picture.analysis);
     file_.set_attribute(step.id(), "step", picture.step);
-    for (std::size_t t = 0; t < tables_.tables().size(); ++t) {
-      const StateTable& table = tables_.tables()[t];
-      const std::vector<double> values = tables_.values(t, *meshes_, picture.structures);
-      file_.write(step.id(), table.name, values, table_shape(values.size(), table.columns));
+    for (const StateTable& table : tables_.tables()) {
+      open_tables_.push_back(file_.make_table(step.id(), table.name, shape_of(table)));
     }
     if (!picture.arrays.empty()) write_arrays(step.id(), picture.arrays);
+  }
+
+  std::optional<std::uint64_t> room_of(std::size_t table) const {
+    return file_.room_of(open_tables_[table]);
+  }
+
+  void put(std::size_t table, std::span<const double> values) {
+    file_.fill(open_tables_[table], values);
+    note(table, sum_of_numbers(values));
+  }
+
+  void note(std::size_t table, std::uint64_t sum) {
+    file_.add_to_sum(tables_.tables()[table].name, shape_of(tables_.tables()[table]), sum);
+  }
+
+  void end() {
+    open_tables_.clear();
     ++mark_.steps;
     mark_.steps_sum += file_.take_sum();
     if (is_due()) commit();
@@ -285,6 +301,7 @@ class Recorder::File {
   }
 
   const RecordMark& mark() const { return mark_; }
+  const StateTables& tables() const { return tables_; }
 
   void close() {
     commit();
@@ -300,11 +317,14 @@ class Recorder::File {
   // A commit takes as long as some steps of a small model.
   bool is_due() const { return Clock::now() - committed_at_ > std::chrono::milliseconds(100); }
 
+  static Shape shape_of(const StateTable& table) {
+    return table_shape(table.rows * static_cast<std::size_t>(table.columns), table.columns);
+  }
+
   // A file that is not in its place yet, and goes if it does not come there.
-  File(const std::filesystem::path& temporary, const RunInfo& info, SharedMeshes meshes,
-       const std::vector<HistoryColumn>& history, Unnamed)
-      : meshes_(std::move(meshes)),
-        tables_(fields_of(*meshes_)),
+  File(const std::filesystem::path& temporary, const RunInfo& info,
+       const std::vector<StructureMesh>& meshes, const std::vector<HistoryColumn>& history, Unnamed)
+      : tables_(fields_of(meshes)),
         columns_(history.size()),
         cleanup_(temporary),
         file_(Hdf5File::create(temporary)) {
@@ -317,13 +337,13 @@ class Recorder::File {
     file_.take_sum();
     const Handle mesh_group = file_.make_group(file_.id(), "mesh");
     int number = 0;
-    for (const StructureMesh& mesh : *meshes_) {
+    for (const StructureMesh& mesh : meshes) {
       write_mesh(file_, mesh_group.id(), mesh, number++, tables_);
     }
     const Handle topologies = file_.make_group(file_.id(), "topologies");
     number = 0;
     for (const StateGroup& group : tables_.groups()) {
-      file_.write(topologies.id(), step_name(number++), StateTables::topology(group, *meshes_));
+      file_.write(topologies.id(), step_name(number++), StateTables::topology(group, meshes));
     }
     steps_ = file_.make_group(file_.id(), "steps");
     history_ = make_history(file_, history);
@@ -400,31 +420,33 @@ class Recorder::File {
     }
   }
 
-  SharedMeshes meshes_;
   StateTables tables_;
   std::size_t columns_;
   Cleanup cleanup_;
   Hdf5File file_;
   Handle steps_;
   Handle history_;
-  std::vector<double> pending_;  // rows of the history that are not in the file yet
+  std::vector<Handle> open_tables_;  // of the state that is being recorded
+  std::vector<double> pending_;      // rows of the history that are not in the file yet
   Clock::time_point committed_at_;
   RecordMark mark_;
 };
 
-Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
+Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
+                   const std::vector<StructureMesh>& meshes,
                    const std::vector<HistoryColumn>& history) {
-  check_meshes(*meshes);
+  check_meshes(meshes);
   const QuietHdf5 quiet;
-  file_ = std::make_unique<File>(path, info, std::move(meshes), history);
+  file_ = std::make_unique<File>(path, info, meshes, history);
 }
 
-Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
+Recorder::Recorder(const std::filesystem::path& path, const RunInfo& info,
+                   const std::vector<StructureMesh>& meshes,
                    const std::vector<HistoryColumn>& history, const RecordMark& mark,
                    const Recorded& recorded) {
-  check_meshes(*meshes);
+  check_meshes(meshes);
   const QuietHdf5 quiet;
-  file_ = std::make_unique<File>(path, info, std::move(meshes), history, mark, recorded);
+  file_ = std::make_unique<File>(path, info, meshes, history, mark, recorded);
 }
 
 const RecordMark& Recorder::commit() {
@@ -450,10 +472,37 @@ Recorder::~Recorder() {
   file_.reset();
 }
 
-void Recorder::record(const Picture& picture) {
+void Recorder::record(const std::vector<StructureMesh>& meshes, const Picture& picture) {
+  check_picture(meshes, picture);
+  begin(picture);
+  const StateTables& tables = file_->tables();
+  for (std::size_t t = 0; t < tables.tables().size(); ++t) {
+    put(t, tables.values(t, meshes, picture.structures));
+  }
+  end();
+}
+
+void Recorder::begin(const Picture& picture) {
   internal_check(file_ != nullptr, "the recorder is closed");
   const QuietHdf5 quiet;
-  file_->record(picture);
+  file_->begin(picture);
+}
+
+std::optional<std::uint64_t> Recorder::room_of(std::size_t table) const {
+  const QuietHdf5 quiet;
+  return file_->room_of(table);
+}
+
+void Recorder::put(std::size_t table, std::span<const double> values) {
+  const QuietHdf5 quiet;
+  file_->put(table, values);
+}
+
+void Recorder::note(std::size_t table, std::uint64_t sum) { file_->note(table, sum); }
+
+void Recorder::end() {
+  const QuietHdf5 quiet;
+  file_->end();
 }
 
 void Recorder::add_history(const HistoryRow& row) {

@@ -1,4 +1,4 @@
-#include "state_tables.hpp"
+#include <culm/output/state_tables.hpp>
 
 #include "mesh_tables.hpp"
 #include "names.hpp"
@@ -55,10 +55,10 @@ StateTables::StateTables(const std::vector<StructureFields>& structures)
         add(fields, array.name, array.columns, s.nodes);
       }
       if (!s.resultant_names.empty()) {
-        add(fields, "resultants", static_cast<int>(s.resultant_names.size()), s.cells);
+        add(fields, "resultants", static_cast<int>(s.resultant_names.size()), s.cells, true);
       }
       for (const CellArray& array : s.cell_arrays) {
-        add(fields, array.name, static_cast<int>(array.columns.size()), s.cells);
+        add(fields, array.name, static_cast<int>(array.columns.size()), s.cells, true);
       }
       if (group.fields.empty()) {
         group.fields = fields;
@@ -90,7 +90,7 @@ void StateTables::make_groups(const std::vector<StructureFields>& structures) {
 
 // Fields of one name with other numbers of columns are other tables.
 void StateTables::add(std::vector<FieldRows>& fields, const std::string& field, int columns,
-                      std::size_t rows) {
+                      std::size_t rows, bool is_of_cells) {
   std::size_t table = 0;
   int alike = 0;
   for (; table < tables_.size(); ++table) {
@@ -103,7 +103,7 @@ void StateTables::add(std::vector<FieldRows>& fields, const std::string& field, 
     tables_.push_back({link_name(name), columns, 0});
     field_of_.push_back(field);
   }
-  fields.push_back({field, table, tables_[table].rows, rows});
+  fields.push_back({field, table, tables_[table].rows, rows, is_of_cells});
   tables_[table].rows += rows;
 }
 
@@ -111,16 +111,39 @@ std::vector<double> StateTables::values(std::size_t table,
                                         const std::vector<StructureMesh>& reference,
                                         const std::vector<StructureState>& states) const {
   std::vector<double> values;
-  values.reserve(tables_[table].rows * static_cast<std::size_t>(tables_[table].columns));
-  const auto add_structure = [&](std::size_t s) {
-    for (std::size_t f = 0; f < fields_[s].size(); ++f) {
-      if (fields_[s][f].table != table) continue;
-      const std::vector<double> numbers = field_values(f, reference[s], states[s]);
+  each_field(table, [&](std::size_t s, std::size_t f) {
+    std::vector<double> numbers = field_values(f, reference[s], states[s]);
+    if (values.empty()) {
+      values = std::move(numbers);
+    } else {
       values.insert(values.end(), numbers.begin(), numbers.end());
     }
-  };
-  for (const StateGroup& group : groups_) std::ranges::for_each(group.structures, add_structure);
+  });
   return values;
+}
+
+RowRanges StateTables::rows(std::size_t table, const std::vector<StructurePart>& parts) const {
+  RowRanges rows;
+  each_field(table, [&](std::size_t s, std::size_t f) {
+    const FieldRows& field = fields_[s][f];
+    for (RowRange range : field.is_of_cells ? parts[s].cells : parts[s].nodes) {
+      range.first += field.first;
+      rows.push_back(range);
+    }
+  });
+  return rows;
+}
+
+// Calls action(structure, number of the field) for all that stands in a table, in its order.
+template <class Action>
+void StateTables::each_field(std::size_t table, Action action) const {
+  for (const StateGroup& group : groups_) {
+    for (const std::size_t s : group.structures) {
+      for (std::size_t f = 0; f < fields_[s].size(); ++f) {
+        if (fields_[s][f].table == table) action(s, f);
+      }
+    }
+  }
 }
 
 std::vector<int> StateTables::topology(const StateGroup& group,

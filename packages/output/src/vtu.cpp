@@ -1,3 +1,4 @@
+#include <culm/base/error.hpp>
 #include <culm/output/vtu.hpp>
 
 #include "names.hpp"
@@ -36,7 +37,8 @@ std::vector<std::string> collection_entries(
 }  // namespace
 
 Pictures::Pictures(const std::filesystem::path& folder, const std::string& stem,
-                   SharedMeshes meshes, const std::vector<std::string>& analyses, std::size_t most)
+                   std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses,
+                   std::size_t most)
     : folder_(folder),
       vtu_folder_(stem + "_vtu"),
       meshes_(std::move(meshes)),
@@ -45,9 +47,9 @@ Pictures::Pictures(const std::filesystem::path& folder, const std::string& stem,
   if (analyses.size() > 1) {
     for (const std::string& name : analyses) analyses_.push_back(file_part(name));
   }
-  check_meshes(*meshes_);
+  check_meshes(meshes_);
   make_folder(folder_ / vtu_folder_);
-  for (const StructureMesh& mesh : *meshes_) names_.push_back(mesh.name);
+  for (const StructureMesh& mesh : meshes_) names_.push_back(mesh.name);
   make_skins();
   make_groups();
   const bool skinned =
@@ -89,7 +91,7 @@ void Pictures::list_anew(Collections& collections, Files Step::*files) {
 }
 
 void Pictures::make_skins() {
-  for (const StructureMesh& mesh : *meshes_) {
+  for (const StructureMesh& mesh : meshes_) {
     const Skin& skin = skins_.emplace_back(mesh);
     reference_skins_.push_back(skin.points(mesh.positions, mesh.triads));
   }
@@ -113,8 +115,13 @@ void Pictures::make_groups() {
   }
 }
 
+bool Pictures::shows_next(int analysis) const {
+  const auto found = sequences_.find(analysis);
+  Thinning next = found == sequences_.end() ? Thinning(most_) : found->second.thinning;
+  return next.choose_next();
+}
+
 void Pictures::add(const Picture& picture) {
-  check_picture(*meshes_, picture);
   Step step;
   step.time = picture.time;
   add(picture.analysis, std::move(step), &picture);
@@ -146,8 +153,7 @@ void Pictures::add(int analysis, Step step, const Picture* picture) {
   const bool is_shown = sequence.thinning.choose_next();
   if (sequence.thinning.stride() != stride) thin_out(sequence);
   if (!is_shown) {
-    waiting_ = {analysis, std::move(step), {}};
-    if (picture != nullptr) waiting_->picture = *picture;
+    waiting_ = {analysis, std::move(step), picture == nullptr};
     return;
   }
   if (picture != nullptr) write_files(*picture, step);
@@ -160,16 +166,16 @@ void Pictures::show(int analysis, Step step) {
   sequences_.at(analysis).shown.push_back(std::move(step));
 }
 
-void Pictures::secure() {
-  if (!waiting_ || !waiting_->picture) return;
-  write_files(*waiting_->picture, waiting_->step);
-  waiting_->picture.reset();
+void Pictures::draw(const Picture& last) {
+  internal_check(lacks_last(), "a step waits for its picture");
+  write_files(last, waiting_->step);
+  waiting_->is_drawn = true;
 }
 
 // The last step of an analysis is shown whatever its number.
 void Pictures::settle() {
   if (!waiting_) return;
-  secure();
+  internal_check(waiting_->is_drawn, "the last step was drawn");
   show(waiting_->analysis, std::move(waiting_->step));
   waiting_.reset();
 }
@@ -197,6 +203,7 @@ void Pictures::remove_files(const Step& step) {
 }
 
 void Pictures::write_files(const Picture& picture, Step& step) {
+  check_picture(meshes_, picture);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     std::vector<VtuGrid> centres;

@@ -1,8 +1,8 @@
 #include <culm/base/text.hpp>
+#include <culm/output/state_tables.hpp>
 #include <culm/output/xdmf.hpp>
 
 #include "names.hpp"
-#include "state_tables.hpp"
 
 #include <fmt/core.h>
 

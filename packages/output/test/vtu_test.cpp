@@ -209,10 +209,16 @@ TEST(Vtu, OfManyStepsSomeThatLieEvenlyAreShownAndTheLastOfEachAnalysis) {
   const auto open = [&] {
     return Pictures(folder.path(), "run", std::vector{body_mesh()}, {"first", "second"}, 4);
   };
+  const auto add = [&](Pictures& pictures, int i) {
+    if (pictures.lacks_last_before(picture(i).analysis)) pictures.draw(picture(i - 1));
+    const bool is_shown = pictures.shows_next(picture(i).analysis);
+    pictures.add(picture(i));
+    EXPECT_EQ(pictures.lacks_last(), !is_shown) << i;
+  };
   {
     Pictures pictures = open();
-    for (int i = 0; i < 16; ++i) pictures.add(picture(i));
-    pictures.secure();  // changes nothing that is shown
+    for (int i = 0; i < 16; ++i) add(pictures, i);
+    EXPECT_FALSE(pictures.lacks_last()) << "the last one is the fourth after the one before";
     pictures.write();
     EXPECT_EQ(pictures.added(), 16);
     EXPECT_EQ(pictures.shown(), 7);
@@ -225,7 +231,9 @@ TEST(Vtu, OfManyStepsSomeThatLieEvenlyAreShownAndTheLastOfEachAnalysis) {
     // as where a run goes on after its 15th step
     Pictures pictures = open();
     for (int i = 0; i < 15; ++i) pictures.add_earlier(i, 1.0 * i, i < 3 ? 0 : 1);
-    for (int i = 15; i < 22; ++i) pictures.add(picture(i));
+    for (int i = 15; i < 22; ++i) add(pictures, i);
+    ASSERT_TRUE(pictures.lacks_last());
+    pictures.draw(picture(21));
     pictures.write();
   }
   EXPECT_THAT(listed_in(folder / "run.pvd"), ::testing::ElementsAre(0, 1, 2, 3, 11, 19, 21));
@@ -233,8 +241,9 @@ TEST(Vtu, OfManyStepsSomeThatLieEvenlyAreShownAndTheLastOfEachAnalysis) {
   // as where a run is killed behind the last step of an analysis, and goes on from there
   {
     Pictures pictures = open();
-    for (int i = 0; i < 11; ++i) pictures.add(picture(i));
-    pictures.secure();
+    for (int i = 0; i < 11; ++i) add(pictures, i);
+    ASSERT_TRUE(pictures.lacks_last());
+    pictures.draw(picture(10));
   }
   Pictures pictures = open();
   for (int i = 0; i < 11; ++i) pictures.add_earlier(i, 1.0 * i, i < 3 ? 0 : 1);

@@ -23,7 +23,7 @@ void record_run(const TemporaryFolder& folder, int steps) {
   XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   for (int i = 0; i < steps; ++i) {
     const Picture picture = sample_picture(meshes, i);
-    recorder.record(picture);
+    recorder.record(meshes, picture);
     xdmf.add_step(picture.index, picture.time);
   }
   xdmf.write();

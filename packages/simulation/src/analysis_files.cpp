@@ -30,7 +30,7 @@ void animate(const assembly::System& system, const analysis::Shape& shape,
     const double part = static_cast<double>(i) / frames_per_period;
     model::Coordinates q = state.next;
     analysis::displace(model, shape, factor, 2.0 * std::numbers::pi * part, q);
-    output::Picture picture = picture_of(system, {}, q);
+    output::Picture picture = picture_of(system, q);
     picture.index = i;
     picture.time = part;
     on_root(system.comm(), [&] { pictures->add(picture); });

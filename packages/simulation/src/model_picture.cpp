@@ -91,11 +91,11 @@ void draw_model(const assembly::System& system, const output::RunInfo& info, dou
     const auto actions = largest_actions(system, *load, state, end);
     if (!actions.empty()) add_load(model, *load, actions, meshes);
   }
-  output::Picture picture = picture_of(system, {}, state.next);
+  output::Picture picture = picture_of(system, state.next);
   on_root(system.comm(), [&] {
     output::Recorder recorder(path, info, meshes, {});
     picture.arrays = links_of(model);
-    recorder.record(picture);
+    recorder.record(meshes, picture);
     recorder.close();
   });
 }

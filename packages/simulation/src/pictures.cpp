@@ -9,24 +9,36 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 namespace culm::simulation {
 namespace {
 
 using model::NodeTable;
 
-void read_nodes(const model::Structure& structure, const model::Coordinates& q,
-                std::vector<Vec3>& positions, std::vector<Mat3>& triads) {
+// Those that a rank has, by their numbers.
+template <class Action>
+void each_row(const RowRanges& rows, const Action& action) {
+  for (const RowRange& range : rows) {
+    for (std::size_t i = 0; i < range.count; ++i) action(range.first + i);
+  }
+}
+
+RowRanges all_rows(std::size_t count) { return count == 0 ? RowRanges() : RowRanges{{0, count}}; }
+
+void read_nodes(const model::Structure& structure, const RowRanges& rows,
+                const model::Coordinates& q, std::vector<Vec3>& positions,
+                std::vector<Mat3>& triads) {
   const bool is_shell = !structure.faces.empty();
-  positions.reserve(structure.nodes.size());
-  triads.reserve(structure.nodes.size());
-  for (int node : structure.nodes) {
-    const auto slots = NodeTable::slots(q, node);
+  positions.reserve(count_rows(rows));
+  triads.reserve(count_rows(rows));
+  each_row(rows, [&](std::size_t row) {
+    const auto slots = NodeTable::slots(q, structure.nodes[row]);
     positions.emplace_back(slots.col(0));
     triads.emplace_back(slots.rightCols<3>());
     // the one director of a shell node points through the thickness: pictures expect it as d3
     if (is_shell) triads.back().col(2).swap(triads.back().col(0));
-  }
+  });
 }
 
 output::CellType cell_type(std::size_t nodes, bool is_shell) {
@@ -55,27 +67,6 @@ std::vector<output::HeldNodes> held_nodes(const model::Model& model,
     }
   }
   return held;
-}
-
-output::StructureMesh mesh_of(const model::Structure& structure, const model::Model& model) {
-  output::StructureMesh mesh;
-  mesh.name = structure.name;
-  const bool is_shell = !structure.faces.empty();
-  mesh.type = is_shell ? "Shell" : structure.nodes.size() == 1 ? "Body" : "Beam";
-  if (is_shell) mesh.directors = output::Directors::single;
-  mesh.outlines = structure.outlines;
-  read_nodes(structure, model.nodes().reference(), mesh.positions, mesh.triads);
-  std::unordered_map<int, int> number;  // of a node within the structure
-  for (int node : structure.nodes) number.emplace(node, static_cast<int>(number.size()));
-  for (const model::Cell& cell : structure.cells) {
-    output::Cell picture;
-    picture.type = cell_type(cell.nodes.size(), is_shell);
-    for (int node : cell.nodes) picture.nodes.push_back(number.at(node));
-    mesh.cells.push_back(picture);
-    if (cell.source != nullptr) mesh.resultant_names = cell.source->resultant_names();
-  }
-  mesh.held = held_nodes(model, number);
-  return mesh;
 }
 
 std::vector<int> shown_layers(const model::Structure& structure, const LayerSettings& settings) {
@@ -107,20 +98,22 @@ std::vector<output::CellArray> layer_arrays(const model::Structure& structure,
   return arrays;
 }
 
-// The numbers of those arrays. Collective; on rank 0 only.
-std::vector<std::vector<double>> layer_values(const parallel::Comm& comm,
-                                              const model::Structure& structure,
-                                              const LayerSettings& settings,
+// The numbers of those arrays.
+std::vector<std::vector<double>> layer_values(const model::Structure& structure,
+                                              const RowRanges& cells, const LayerSettings& settings,
                                               const model::Coordinates& q) {
   const std::vector<int> shown = shown_layers(structure, settings);
   std::vector<std::vector<double>> values;
   if (shown.empty()) return values;
   values.resize(layer_arrays(structure, settings).size());
-  const std::size_t count = structure.cells.size();
-  const auto owns = [&](int cell) { return structure.layers->owns(cell); };
-  const auto append = [&](int cell, std::vector<double>& numbers) {
-    const std::vector<model::LayerState> states = structure.layers->states(cell, q);
-    const auto add = [&](const Vec6& v) { numbers.insert(numbers.end(), v.begin(), v.end()); };
+  each_row(cells, [&](std::size_t cell) {
+    const std::vector<model::LayerState> states =
+        structure.layers->states(static_cast<int>(cell), q);
+    auto array = values.begin();
+    const auto add = [&](const Vec6& v) {
+      array->insert(array->end(), v.begin(), v.end());
+      ++array;
+    };
     for (int layer : shown) {
       for (std::size_t height = 0; height < model::layer_heights.size(); ++height) {
         const model::LayerState& state =
@@ -129,38 +122,94 @@ std::vector<std::vector<double>> layer_values(const parallel::Comm& comm,
         if (settings.strains) add(state.strain);
       }
     }
-  };
-  // cell after cell, and in each array after array
-  const std::vector<double> all =
-      parallel::gather_owned(comm, count, 6 * values.size(), owns, append);
-  for (std::size_t at = 0; at < all.size(); at += 6) {
-    std::vector<double>& array = values[at / 6 % values.size()];
-    array.insert(array.end(), all.data() + at, all.data() + at + 6);
-  }
+  });
   return values;
 }
 
-// Stress resultants, cell after cell; empty where there are none. Collective; on rank 0 only.
-std::vector<double> resultants_of(const parallel::Comm& comm, const model::Structure& structure,
-                                  const model::Coordinates& q) {
-  const std::vector<model::Cell>& cells = structure.cells;
-  const auto cell_of = [&](int item) -> const model::Cell& {
-    return cells[static_cast<std::size_t>(item)];
-  };
-  std::size_t width = 0;
-  for (const model::Cell& cell : cells) {
-    if (cell.source != nullptr) width = cell.source->resultant_names().size();
-    if (width > 0) break;
+// Stress resultants, cell after cell; empty where there are none.
+std::vector<double> resultants_of(const model::Structure& structure, const RowRanges& rows,
+                                  std::size_t width, const model::Coordinates& q) {
+  std::vector<double> numbers;
+  if (width == 0) return numbers;
+  numbers.reserve(width * count_rows(rows));
+  each_row(rows, [&](std::size_t row) {
+    const model::Cell& cell = structure.cells[row];
+    if (cell.source != nullptr) {
+      cell.source->resultants(cell.item, q, numbers);
+    } else {
+      numbers.insert(numbers.end(), width, 0.0);
+    }
+  });
+  return numbers;
+}
+
+// What is known of a structure without its nodes and cells.
+output::StructureMesh frame_of(const model::Structure& structure, const LayerSettings& layers) {
+  output::StructureMesh frame;
+  frame.name = structure.name;
+  const bool is_shell = !structure.faces.empty();
+  frame.type = is_shell ? "Shell" : structure.nodes.size() == 1 ? "Body" : "Beam";
+  if (is_shell) frame.directors = output::Directors::single;
+  const auto cell = std::ranges::find_if(structure.cells,
+                                         [](const model::Cell& c) { return c.source != nullptr; });
+  if (cell != structure.cells.end()) frame.resultant_names = cell->source->resultant_names();
+  frame.cell_arrays = layer_arrays(structure, layers);
+  return frame;
+}
+
+output::StructureMesh mesh_of(const model::Structure& structure, const LayerSettings& layers,
+                              const model::Model& model) {
+  output::StructureMesh mesh = frame_of(structure, layers);
+  mesh.outlines = structure.outlines;
+  read_nodes(structure, all_rows(structure.nodes.size()), model.nodes().reference(), mesh.positions,
+             mesh.triads);
+  std::unordered_map<int, int> number;  // of a node within the structure
+  for (int node : structure.nodes) number.emplace(node, static_cast<int>(number.size()));
+  for (const model::Cell& cell : structure.cells) {
+    output::Cell picture;
+    picture.type = cell_type(cell.nodes.size(), !structure.faces.empty());
+    for (int node : cell.nodes) picture.nodes.push_back(number.at(node));
+    mesh.cells.push_back(picture);
   }
-  return parallel::gather_owned(
-      comm, cells.size(), width,
-      [&](int item) {
-        const model::Cell& cell = cell_of(item);
-        return cell.source != nullptr && cell.source->owns(cell.item);
-      },
-      [&](int item, std::vector<double>& numbers) {
-        cell_of(item).source->resultants(cell_of(item).item, q, numbers);
-      });
+  mesh.held = held_nodes(model, number);
+  return mesh;
+}
+
+// Vectors or matrices of all ranks, on rank 0.
+template <class Matrix>
+std::vector<Matrix> gather_each(const parallel::Comm& comm, std::size_t rows, const RowRanges& own,
+                                const std::vector<Matrix>& each) {
+  constexpr auto width = static_cast<std::size_t>(Matrix::SizeAtCompileTime);
+  if (comm.max(each.empty() ? 0 : 1) == 0) return {};
+  std::vector<double> numbers;
+  numbers.reserve(width * each.size());
+  for (const Matrix& m : each) numbers.insert(numbers.end(), m.data(), m.data() + width);
+  const std::vector<double> all = parallel::gather_rows(comm, rows, width, own, std::move(numbers));
+  std::vector<Matrix> whole;
+  whole.reserve(all.size() / width);
+  for (std::size_t i = 0; i < all.size(); i += width) {
+    whole.emplace_back(Eigen::Map<const Matrix>(all.data() + i));
+  }
+  return whole;
+}
+
+std::vector<output::StructurePart> parts_of(const assembly::System& system) {
+  std::vector<bool> is_own(static_cast<std::size_t>(system.model().nodes().size()), false);
+  for (const int node : system.owned_nodes()) is_own[static_cast<std::size_t>(node)] = true;
+  std::vector<output::StructurePart> parts;
+  for (const model::Structure& structure : system.model().structures()) {
+    output::StructurePart& part = parts.emplace_back();
+    for (std::size_t row = 0; row < structure.nodes.size(); ++row) {
+      if (is_own[static_cast<std::size_t>(structure.nodes[row])]) append_row(part.nodes, row);
+    }
+    for (std::size_t row = 0; row < structure.cells.size(); ++row) {
+      const model::Cell& cell = structure.cells[row];
+      const bool is_here =
+          cell.source != nullptr ? cell.source->owns(cell.item) : system.comm().is_root();
+      if (is_here) append_row(part.cells, row);
+    }
+  }
+  return parts;
 }
 
 }  // namespace
@@ -169,30 +218,88 @@ std::vector<output::StructureMesh> meshes_of(const model::Model& model,
                                              const LayerSettings& layers) {
   std::vector<output::StructureMesh> meshes;
   for (const model::Structure& structure : model.structures()) {
-    meshes.push_back(mesh_of(structure, model));
-    meshes.back().cell_arrays = layer_arrays(structure, layers);
+    meshes.push_back(mesh_of(structure, layers, model));
   }
   return meshes;
 }
 
-output::Picture picture_of(const assembly::System& system, const LayerSettings& layers,
-                           const model::Coordinates& q) {
+PicturePart::PicturePart(const assembly::System& system, const model::Model& drawn,
+                         const LayerSettings& layers)
+    : system_(&system), layers_(layers), rows_(parts_of(system)) {
+  for (std::size_t s = 0; s < rows_.size(); ++s) {
+    const model::Structure& structure = drawn.structures()[s];
+    output::StructureMesh& mesh = meshes_.emplace_back(frame_of(structure, layers));
+    read_nodes(structure, rows_[s].nodes, drawn.nodes().reference(), mesh.positions, mesh.triads);
+  }
+}
+
+output::StateTables PicturePart::tables() const {
+  std::vector<output::StructureFields> structures;
+  for (std::size_t s = 0; s < meshes_.size(); ++s) {
+    const model::Structure& structure = system_->model().structures()[s];
+    structures.push_back(output::fields_of(meshes_[s]));
+    structures.back().nodes = structure.nodes.size();
+    structures.back().cells = structure.cells.size();
+  }
+  return output::StateTables(structures);
+}
+
+output::Picture PicturePart::draw(const model::Coordinates& q) const {
   output::Picture picture;
-  for (const model::Structure& structure : system.model().structures()) {
-    output::StructureState s;
-    if (system.comm().is_root()) read_nodes(structure, q, s.positions, s.triads);
-    s.resultants = resultants_of(system.comm(), structure, q);
-    s.cell_values = layer_values(system.comm(), structure, layers, q);
-    picture.structures.push_back(std::move(s));
+  for (std::size_t s = 0; s < rows_.size(); ++s) {
+    const model::Structure& structure = system_->model().structures()[s];
+    output::StructureState& state = picture.structures.emplace_back();
+    read_nodes(structure, rows_[s].nodes, q, state.positions, state.triads);
+    state.resultants =
+        resultants_of(structure, rows_[s].cells, meshes_[s].resultant_names.size(), q);
+    state.cell_values = layer_values(structure, rows_[s].cells, layers_, q);
   }
   return picture;
 }
 
-void add_reference(const model::Model& model, output::Picture& picture) {
-  for (std::size_t i = 0; i < picture.structures.size(); ++i) {
-    output::StructureState& s = picture.structures[i];
-    read_nodes(model.structures()[i], model.nodes().reference(), s.reference_positions,
-               s.reference_triads);
+output::Picture PicturePart::gather(output::Picture picture) const {
+  const parallel::Comm& comm = system_->comm();
+  if (comm.size() == 1) return picture;
+  for (std::size_t s = 0; s < rows_.size(); ++s) {
+    const model::Structure& structure = system_->model().structures()[s];
+    const output::StructureMesh& mesh = meshes_[s];
+    output::StructureState& state = picture.structures[s];
+    const std::size_t nodes = structure.nodes.size();
+    const auto each_node = [&](auto& each) {
+      each = gather_each(comm, nodes, rows_[s].nodes, each);
+    };
+    each_node(state.positions);
+    each_node(state.triads);
+    each_node(state.reference_positions);
+    each_node(state.reference_triads);
+    const auto rows = [&](std::size_t count, const RowRanges& own, std::size_t width,
+                          std::vector<double>& numbers) {
+      numbers = parallel::gather_rows(comm, count, width, own, std::move(numbers));
+    };
+    for (std::size_t a = 0; a < mesh.node_arrays.size(); ++a) {
+      rows(nodes, rows_[s].nodes, static_cast<std::size_t>(mesh.node_arrays[a].columns),
+           state.node_values[a]);
+    }
+    const std::size_t cells = structure.cells.size();
+    rows(cells, rows_[s].cells, mesh.resultant_names.size(), state.resultants);
+    for (std::size_t a = 0; a < mesh.cell_arrays.size(); ++a) {
+      rows(cells, rows_[s].cells, mesh.cell_arrays[a].columns.size(), state.cell_values[a]);
+    }
+  }
+  return picture;
+}
+
+output::Picture picture_of(const assembly::System& system, const model::Coordinates& q) {
+  const PicturePart part(system, system.model(), {});
+  return part.gather(part.draw(q));
+}
+
+void PicturePart::add_reference(output::Picture& picture) const {
+  for (std::size_t s = 0; s < rows_.size(); ++s) {
+    output::StructureState& state = picture.structures[s];
+    read_nodes(system_->model().structures()[s], rows_[s].nodes,
+               system_->model().nodes().reference(), state.reference_positions,
+               state.reference_triads);
   }
 }
 
@@ -205,22 +312,24 @@ void show_velocities(std::vector<output::StructureMesh>& meshes) {
   }
 }
 
-void add_velocities(const model::Model& model, const model::State& state,
-                    output::Picture& picture) {
-  for (std::size_t i = 0; i < picture.structures.size(); ++i) {
-    const model::Structure& structure = model.structures()[i];
+void PicturePart::show_velocities() { simulation::show_velocities(meshes_); }
+
+void PicturePart::add_velocities(const model::State& state, output::Picture& picture) const {
+  for (std::size_t s = 0; s < rows_.size(); ++s) {
+    const model::Structure& structure = system_->model().structures()[s];
     std::vector<double> velocities;
     std::vector<double> spins;
-    for (int node : structure.nodes) {
+    each_row(rows_[s].nodes, [&](std::size_t row) {
+      const int node = structure.nodes[row];
       const Vec3 velocity = Place{.node = node}.seen_velocity(state);
       velocities.insert(velocities.end(), velocity.begin(), velocity.end());
-      if (!structure.faces.empty()) continue;
+      if (!structure.faces.empty()) return;
       const Vec3 own = spin(node, state);
       spins.insert(spins.end(), own.begin(), own.end());
-    }
-    auto& values = picture.structures[i].node_values;
+    });
+    auto& values = picture.structures[s].node_values;
     values.push_back(std::move(velocities));
-    if (!spins.empty()) values.push_back(std::move(spins));
+    if (structure.faces.empty()) values.push_back(std::move(spins));
   }
 }
 

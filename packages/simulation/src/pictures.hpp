@@ -1,6 +1,7 @@
 /// A model as pictures show it.
 #pragma once
 
+#include <culm/output/state_tables.hpp>
 #include <culm/simulation/result_files.hpp>
 
 #include <vector>
@@ -11,20 +12,48 @@ namespace culm::simulation {
 std::vector<output::StructureMesh> meshes_of(const model::Model& model,
                                              const LayerSettings& layers);
 
-/// The structures in a configuration; index and time stay zero. Collective; on rank 0 only.
-/// @param q  up to date for all nodes on rank 0, elsewhere for those that the rank needs
-output::Picture picture_of(const assembly::System& system, const LayerSettings& layers,
-                           const model::Coordinates& q);
-
-/// Lets displacements of a picture start from the geometry of this model, which imperfections may
-/// have bent against that of the mesh.
-void add_reference(const model::Model& model, output::Picture& picture);
-
 /// Makes velocities of nodes [m/s], and angular velocities of those with triads [rad/s], part of
 /// what is shown of the structures.
 void show_velocities(std::vector<output::StructureMesh>& meshes);
 
-/// Adds these numbers to a picture; zero in statics. The state must be up to date for all nodes.
-void add_velocities(const model::Model& model, const model::State& state, output::Picture& picture);
+/// What a rank has of a picture: the nodes that it owns, and the cells whose elements it evaluates.
+class PicturePart {
+ public:
+  /// @param drawn  is the geometry of the mesh, of the same structures
+  PicturePart(const assembly::System& system, const model::Model& drawn,
+              const LayerSettings& layers);
+
+  /// Makes velocities part of what is shown.
+  void show_velocities();
+
+  /// Rows of this rank, by structure.
+  const std::vector<output::StructurePart>& rows() const { return rows_; }
+  /// The structures, with these nodes in the reference and without cells.
+  const std::vector<output::StructureMesh>& meshes() const { return meshes_; }
+  /// Those of the whole model.
+  output::StateTables tables() const;
+
+  /// This rank's part of the picture of a configuration; index and time stay zero.
+  /// @param q  up to date for the nodes that the rank needs
+  output::Picture draw(const model::Coordinates& q) const;
+  /// Lets displacements of a picture start from the geometry of the model of the system, which
+  /// imperfections may have bent against that of the mesh.
+  void add_reference(output::Picture& picture) const;
+  /// Adds the numbers of show_velocities(); zero in statics.
+  void add_velocities(const model::State& state, output::Picture& picture) const;
+
+  /// The whole picture, on rank 0. Collective.
+  output::Picture gather(output::Picture picture) const;
+
+ private:
+  const assembly::System* system_;
+  LayerSettings layers_;
+  std::vector<output::StructurePart> rows_;
+  std::vector<output::StructureMesh> meshes_;
+};
+
+/// The structures in a configuration, on rank 0; index and time stay zero. Collective.
+/// @param q  up to date for the nodes that each rank needs
+output::Picture picture_of(const assembly::System& system, const model::Coordinates& q);
 
 }  // namespace culm::simulation

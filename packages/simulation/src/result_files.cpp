@@ -12,6 +12,7 @@
 #include "on_root.hpp"
 #include "other_run.hpp"
 #include "pictures.hpp"
+#include "shared_states.hpp"
 
 #include <fmt/format.h>
 
@@ -93,9 +94,17 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
       shows_fluid_(settings_.pictures && !fluid_meshes(system.model()).empty()) {
   if (from != nullptr) restore_counts(*from);
   on_root(system_->comm(), [&] {
-    const output::SharedMeshes meshes = meshes_in(drawn);
-    from == nullptr ? open(meshes) : reopen(meshes, restore_mark(*from));
+    from == nullptr ? open(meshes_in(drawn)) : reopen(meshes_in(drawn), restore_mark(*from));
   });
+  make_part();
+  states_ = std::make_unique<SharedStates>(system_->comm(), settings_.folder / "run.h5");
+}
+
+ResultFiles::~ResultFiles() = default;
+
+void ResultFiles::make_part() {
+  part_ = std::make_unique<PicturePart>(*system_, *drawn_, settings_.layers);
+  if (settings_.velocities) part_->show_velocities();
 }
 
 void ResultFiles::restore_counts(const Snapshot& saved) {
@@ -113,24 +122,26 @@ bool ResultFiles::has_saved(const Snapshot& snapshot) const {
 }
 
 void ResultFiles::go_back(const Snapshot& saved) {
+  last_.reset();  // save() has drawn what belongs to the snapshot
   on_root(system_->comm(), [&] {
-    const output::SharedMeshes meshes = meshes_in(*drawn_);
     const output::RecordMark present = files_->recorder.commit();
     files_.reset();
     try {
-      reopen(meshes, restore_mark(saved));
+      reopen(meshes_in(*drawn_), restore_mark(saved));
     } catch (const FileError& error) {
-      reopen(meshes, present);
+      reopen(meshes_in(*drawn_), present);
       throw UsageError(
           "the results that belong to the snapshot are gone: one of before was restored since, and "
           "cut them back (" +
           std::string(error.what()) + ")");
     }
   });
+  states_ = std::make_unique<SharedStates>(system_->comm(), settings_.folder / "run.h5");
   restore_counts(saved);
 }
 
-void ResultFiles::save(Snapshot& snapshot) const {
+void ResultFiles::save(Snapshot& snapshot) {
+  draw_last();
   snapshot.set("output/states", static_cast<double>(frames_));
   snapshot.set("output/rows", static_cast<double>(rows_));
   snapshot.set_text("run/id", settings_.info.run);
@@ -139,7 +150,6 @@ void ResultFiles::save(Snapshot& snapshot) const {
   if (files_ != nullptr) {
     save_mark(files_->recorder.commit(), snapshot);
     files_->history.write();
-    if (files_->pictures) files_->pictures->secure();
   }
   snapshot.set(memories_key, memories_of(*watched_));
   save_watched(*watched_, snapshot);
@@ -147,8 +157,10 @@ void ResultFiles::save(Snapshot& snapshot) const {
 
 void ResultFiles::use(assembly::System& system, const std::vector<WatchedQuantity>& watched) {
   hand_over_memories(*watched_, watched);
+  draw_last();
   system_ = &system;
   watched_ = &watched;
+  make_part();
   read_nodes_ = nodes_of(watched);
 }
 
@@ -157,8 +169,11 @@ std::optional<output::Pictures> ResultFiles::open_fluid() const {
   return output::Pictures(settings_.folder, "run_fluid", fluid_meshes(system_->model()));
 }
 
-output::Pictures ResultFiles::open_pictures(const output::SharedMeshes& meshes) const {
-  return {settings_.folder, "run", meshes, settings_.analyses, settings_.most_pictures};
+std::optional<output::Pictures> ResultFiles::open_pictures(
+    std::vector<output::StructureMesh> meshes) const {
+  if (!settings_.pictures) return {};
+  return output::Pictures(settings_.folder, "run", std::move(meshes), settings_.analyses,
+                          settings_.most_pictures);
 }
 
 std::vector<output::StructureMesh> ResultFiles::meshes_in(const model::Model& model) const {
@@ -167,7 +182,7 @@ std::vector<output::StructureMesh> ResultFiles::meshes_in(const model::Model& mo
   return meshes;
 }
 
-void ResultFiles::open(const output::SharedMeshes& meshes) {
+void ResultFiles::open(std::vector<output::StructureMesh> meshes) {
   const std::filesystem::path& folder = settings_.folder;
   std::error_code failure;
   // those of an earlier run do not belong to the files to come
@@ -175,23 +190,22 @@ void ResultFiles::open(const output::SharedMeshes& meshes) {
   std::filesystem::remove(checkpoint, failure);
   std::filesystem::remove(output::previous_checkpoint(checkpoint), failure);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns());
-  output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", *meshes);
+  output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns());
-  std::optional<output::Pictures> pictures;
-  if (settings_.pictures) pictures = open_pictures(meshes);
+  std::optional<output::Pictures> pictures = open_pictures(std::move(meshes));
   files_ = std::make_unique<Files>(Files{std::move(recorder), std::move(xdmf), std::move(history),
                                          std::move(pictures), open_fluid()});
 }
 
 // The result file is cut to the time of the checkpoint; the others are made again from it.
-void ResultFiles::reopen(const output::SharedMeshes& meshes, const output::RecordMark& mark) {
+void ResultFiles::reopen(std::vector<output::StructureMesh> meshes,
+                         const output::RecordMark& mark) {
   const std::filesystem::path& folder = settings_.folder;
   const auto recorded = output::find_recorded(folder / "run.h5", settings_.info.run, mark);
   output::Recorder recorder(folder / "run.h5", settings_.info, meshes, columns(), mark, recorded);
-  output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", *meshes);
+  output::XdmfFile xdmf(folder / "run.xdmf", "run.h5", meshes);
   output::HistoryCsv history(folder / "history.csv", columns(), recorded.history);
-  std::optional<output::Pictures> pictures;
-  if (settings_.pictures) pictures = open_pictures(meshes);
+  std::optional<output::Pictures> pictures = open_pictures(std::move(meshes));
   std::optional<output::Pictures> fluid = open_fluid();
   for (const auto& step : recorded.steps) {
     xdmf.add_step(step.index, step.time);
@@ -227,29 +241,54 @@ void ResultFiles::show_history() {
 
 void ResultFiles::record(double time, int analysis, int step, const model::State& state,
                          bool was_solved) {
-  model::State whole;
-  if (settings_.velocities || settings_.constraint_forces || shows_fluid_) {
-    whole = system_->gather(state);
-  } else {
-    whole.next = system_->gather(state.next);
+  output::Picture picture = part_->draw(state.next);
+  if (&system_->model() != drawn_) part_->add_reference(picture);
+  if (settings_.velocities) part_->add_velocities(state, picture);
+  picture.index = static_cast<int>(frames_);
+  picture.time = time;
+  picture.analysis = analysis;
+  picture.step = step;
+  const bool shows_forces = settings_.constraint_forces && was_solved;
+  if (shows_forces || shows_fluid_) {
+    const model::State whole = system_->gather(state);
+    on_root(system_->comm(), [&] {
+      if (shows_forces) picture.arrays = constraint_forces(*system_, whole);
+      if (files_->fluid) add_fluid(picture.index, time, whole);
+    });
   }
-  output::Picture f = picture_of(*system_, settings_.layers, whole.next);
-  on_root(system_->comm(), [&] {
-    if (&system_->model() != drawn_) add_reference(system_->model(), f);
-    if (settings_.velocities) add_velocities(system_->model(), whole, f);
-    if (settings_.constraint_forces && was_solved) f.arrays = constraint_forces(*system_, whole);
-    f.index = static_cast<int>(frames_);
-    f.time = time;
-    f.analysis = analysis;
-    f.step = step;
-    if (!is_finite(f)) refuse_infinite(meshes_in(system_->model()), f);
-    if (files_->fluid) add_fluid(f.index, time, whole);
-    whole = {};  // files take memory of their own while they are written
-    files_->recorder.record(f);
-    files_->xdmf.add_step(f.index, time);
-    if (files_->pictures) files_->pictures->add(f);
-  });
+  if (system_->comm().max(is_finite(picture) ? 0 : 1) != 0) refuse(picture);
+  states_->record(*part_, picture, files_ ? &files_->recorder : nullptr);
+  on_root(system_->comm(), [&] { files_->xdmf.add_step(picture.index, time); });
+  if (settings_.pictures) draw(std::move(picture));
   ++frames_;
+}
+
+void ResultFiles::refuse(const output::Picture& picture) {
+  const output::Picture whole = part_->gather(picture);
+  on_root(system_->comm(), [&] { refuse_infinite(meshes_in(system_->model()), whole); });
+}
+
+// Shows a state, or keeps it until it is known whether it is the last of its analysis.
+void ResultFiles::draw(output::Picture picture) {
+  const parallel::Comm& comm = system_->comm();
+  output::Pictures* const pictures = files_ ? &*files_->pictures : nullptr;
+  int answer = 0;
+  if (pictures != nullptr && pictures->lacks_last_before(picture.analysis)) answer += 1;
+  if (pictures != nullptr && pictures->shows_next(picture.analysis)) answer += 2;
+  answer = comm.max(answer);
+  if ((answer & 1) != 0) draw_last();
+  last_.reset();
+  const bool is_shown = (answer & 2) != 0;
+  if (is_shown) picture = part_->gather(std::move(picture));
+  on_root(comm, [&] { pictures->add(picture); });
+  if (!is_shown) last_ = std::move(picture);
+}
+
+void ResultFiles::draw_last() {
+  if (!last_) return;
+  const output::Picture whole = part_->gather(std::move(*last_));
+  last_.reset();
+  on_root(system_->comm(), [&] { files_->pictures->draw(whole); });
 }
 
 // Analyses without the loads that show something have no such picture.
@@ -278,6 +317,7 @@ void ResultFiles::add_results(const std::string& name, const analysis::AnalysisR
 void ResultFiles::finish(const std::string& report, const std::vector<output::NamedScalar>& scalars,
                          const std::vector<output::NamedTable>& tables,
                          const std::vector<Finding>& findings) {
+  draw_last();
   on_root(system_->comm(), [&] {
     files_->recorder.write_report(report, scalars, tables, findings);
     files_->recorder.close();

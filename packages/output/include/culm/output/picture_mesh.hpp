@@ -1,15 +1,13 @@
-/// What the output writers are given: plain data of the whole model, gathered on one process.
+/// What the output writers are given: plain data of a model.
 #pragma once
 
 #include <culm/math/types.hpp>
 
 #include <Eigen/Core>
 
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace culm::output {
@@ -83,19 +81,6 @@ struct StructureMesh {
 
   int node_count() const { return static_cast<int>(positions.size()); }
   int cell_count() const { return static_cast<int>(cells.size()); }
-};
-
-/// Meshes of a model, which all who write pictures of it hold together.
-class SharedMeshes {
- public:
-  SharedMeshes(std::vector<StructureMesh> meshes)
-      : meshes_(std::make_shared<const std::vector<StructureMesh>>(std::move(meshes))) {}
-
-  const std::vector<StructureMesh>& operator*() const { return *meshes_; }
-  const StructureMesh& operator[](std::size_t structure) const { return (*meshes_)[structure]; }
-
- private:
-  std::shared_ptr<const std::vector<StructureMesh>> meshes_;
 };
 
 /// One structure at one time; sizes as in its mesh.

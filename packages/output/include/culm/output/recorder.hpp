@@ -5,8 +5,11 @@
 #include <culm/output/picture_mesh.hpp>
 #include <culm/output/recorded.hpp>
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,22 +62,34 @@ struct RunInfo {
 class Recorder {
  public:
   /// Replaces a file of this name, but only when deck, mesh and empty tables are complete.
-  Recorder(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
-           const std::vector<HistoryColumn>& history);
+  Recorder(const std::filesystem::path& path, const RunInfo& info,
+           const std::vector<StructureMesh>& meshes, const std::vector<HistoryColumn>& history);
   /// Goes on with the file of an earlier run, of the same model and history: what is in it up to
   /// the mark is copied to a new file, which then takes its place. Throws FileError if the model is
   /// another one; then nothing has changed.
   /// @param recorded  from find_recorded()
-  Recorder(const std::filesystem::path& path, const RunInfo& info, SharedMeshes meshes,
-           const std::vector<HistoryColumn>& history, const RecordMark& mark,
-           const Recorded& recorded);
+  Recorder(const std::filesystem::path& path, const RunInfo& info,
+           const std::vector<StructureMesh>& meshes, const std::vector<HistoryColumn>& history,
+           const RecordMark& mark, const Recorded& recorded);
   Recorder(Recorder&&) noexcept;
   Recorder& operator=(Recorder&&) noexcept;
   /// Brings the file up to date and closes it; use close() to learn whether that worked.
   ~Recorder();
 
   /// Writes one step. Its index must not have been used before.
-  void record(const Picture& picture);
+  /// @param meshes  those that the recorder was made with
+  void record(const std::vector<StructureMesh>& meshes, const Picture& picture);
+
+  /// The same of a state that lies on many processes: first what the picture says beside its
+  /// structures; then each table of StateTables, by put(), or by the processes that have its rows,
+  /// which write them into its room in the file, little-endian, and note(); then the end.
+  void begin(const Picture& picture);
+  /// Where a table begins in the file [bytes]; none where others must not write.
+  std::optional<std::uint64_t> room_of(std::size_t table) const;
+  void put(std::size_t table, std::span<const double> values);
+  /// @param sum  of the numbers in the room, by sum_of_numbers(); all of them are there
+  void note(std::size_t table, std::uint64_t sum);
+  void end();
 
   /// Adds a row to the history.
   void add_history(const HistoryRow& row);

@@ -21,6 +21,8 @@ struct StructureFields {
   std::vector<CellArray> cell_arrays;
 };
 
+/// Those of a structure.
+StructureFields fields_of(const StructureMesh& mesh);
 /// Those of structures, in the order of the meshes.
 std::vector<StructureFields> fields_of(const std::vector<StructureMesh>& meshes);
 

@@ -37,24 +37,33 @@ class Pictures {
   /// Throws FileError; InternalError if a mesh contradicts itself.
   /// @param analyses  names of those of the deck; none where collections of each are not wanted
   /// @param most      of the steps of an analysis, beside its last one, at least 2; 0 for all
-  Pictures(const std::filesystem::path& folder, const std::string& stem, SharedMeshes meshes,
-           const std::vector<std::string>& analyses = {}, std::size_t most = 0);
+  Pictures(const std::filesystem::path& folder, const std::string& stem,
+           std::vector<StructureMesh> meshes, const std::vector<std::string>& analyses = {},
+           std::size_t most = 0);
 
-  /// Shows a step, if it is one of those that are shown. The collections may lag behind, see
-  /// GrowingFile. Throws FileError.
+  /// Shows a step, if it is one of those that are shown; if not, it waits to be replaced by the
+  /// next one, or to be shown after all as the last of its analysis: then draw() it first. The
+  /// collections may lag behind, see GrowingFile. Throws FileError.
   void add(const Picture& picture);
+  /// Whether add() shows the next step of an analysis, and reads its structures.
+  bool shows_next(int analysis) const;
+  /// Whether the last step waits without files, and will be shown: always if there will be no other
+  /// one, or if the next one is of another analysis.
+  bool lacks_last() const { return waiting_ && !waiting_->is_drawn; }
+  bool lacks_last_before(int analysis) const {
+    return lacks_last() && waiting_->analysis != analysis;
+  }
+  /// Writes the files of this last step, so that who goes on from here, with add_earlier, finds
+  /// them. Throws FileError.
+  void draw(const Picture& last);
 
   /// The same for a step of an earlier run, whose files are there; those that are not are left out.
   /// Throws FileError.
   /// @param analysis  its number in the deck
   void add_earlier(int index, double time, int analysis = 0);
 
-  /// Writes the files of the last step, shown or not: who goes on from here, with add_earlier,
-  /// finds them. Throws FileError.
-  void secure();
-
-  /// Shows the last step and brings the collections up to date, as at the end of a run. Throws
-  /// FileError, also if somebody removed or replaced a file that was written.
+  /// Shows the last step, which lacks no files, and brings the collections up to date, as at the
+  /// end of a run. Throws FileError, also if somebody removed or replaced a file that was written.
   void write();
 
   /// How many steps are shown, of all that were added.
@@ -93,7 +102,7 @@ class Pictures {
   struct Waiting {
     int analysis = 0;
     Step step;
-    std::optional<Picture> picture;  ///< none where the files are there
+    bool is_drawn = false;  ///< whether the files are there
   };
 
   std::string stem(const Group& group, int index) const;
@@ -112,7 +121,7 @@ class Pictures {
 
   std::filesystem::path folder_;
   std::string vtu_folder_;
-  SharedMeshes meshes_;
+  std::vector<StructureMesh> meshes_;
   std::vector<std::string> names_;
   std::vector<Skin> skins_;
   std::vector<std::vector<Vec3>> reference_skins_;

@@ -1,14 +1,42 @@
 /// Numbers of items that each belong to one rank.
 #pragma once
 
+#include <culm/base/row_ranges.hpp>
 #include <culm/parallel/comm.hpp>
 
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace culm::parallel {
+
+/// The rows of a table that the ranks have together, on rank 0; empty elsewhere. Collective.
+/// @param rows     of the table; those that nobody has are zero
+/// @param own      the rows of this rank
+/// @param numbers  row after row
+inline std::vector<double> gather_rows(const Comm& comm, std::size_t rows, std::size_t width,
+                                       const RowRanges& own, std::vector<double> numbers) {
+  if (comm.size() == 1 && numbers.size() == rows * width) return numbers;
+  std::vector<long long> ends;  // of the ranges of this rank
+  for (const RowRange& range : own) {
+    ends.push_back(static_cast<long long>(range.first));
+    ends.push_back(static_cast<long long>(range.first + range.count));
+  }
+  ends = comm.gather(std::span<const long long>(ends));
+  std::vector<double> all(comm.is_root() ? rows * width : 0);
+  auto range = ends.begin();
+  comm.gather(numbers, [&](int, std::span<const double> piece) {
+    while (!piece.empty()) {
+      const auto first = static_cast<std::size_t>(*range++);
+      const std::size_t count = width * (static_cast<std::size_t>(*range++) - first);
+      std::copy_n(piece.data(), count, all.data() + width * first);
+      piece = piece.subspan(count);
+    }
+  });
+  return all;
+}
 
 /// `width` numbers of each of `count` items, one after the other, on rank 0; empty elsewhere.
 /// Collective.
@@ -17,25 +45,15 @@ namespace culm::parallel {
 template <class Owns, class Append>
 std::vector<double> gather_owned(const parallel::Comm& comm, std::size_t count, std::size_t width,
                                  const Owns& owns, const Append& append) {
-  std::vector<int> items;
+  RowRanges own;
   std::vector<double> numbers;
   for (std::size_t i = 0; i < count; ++i) {
     const int item = static_cast<int>(i);
     if (!owns(item)) continue;
-    items.push_back(item);
+    append_row(own, i);
     append(item, numbers);
   }
-  if (comm.size() == 1 && items.size() == count) return numbers;
-  items = comm.gather(std::span<const int>(items));
-  std::vector<double> all(comm.is_root() ? count * width : 0);
-  auto item = items.begin();
-  comm.gather(numbers, [&](int, std::span<const double> piece) {
-    for (std::size_t from = 0; from < piece.size(); from += width) {
-      const std::size_t to = width * static_cast<std::size_t>(*item++);
-      std::copy_n(piece.data() + from, width, all.data() + to);
-    }
-  });
-  return all;
+  return gather_rows(comm, count, width, own, std::move(numbers));
 }
 
 /// The same on all ranks, of few items.

@@ -45,8 +45,12 @@ struct ResultSettings {
   bool constraint_forces = false;  ///< likewise, of steps
 };
 
-/// Gathers states and writes them on rank 0. All functions are called on all ranks, and throw
-/// FileError on all of them; record() and add_results() NonFiniteError, too.
+class PicturePart;
+class SharedStates;
+
+/// Writes states, of which each rank has its part, and what rank 0 knows of a run. All functions
+/// are called on all ranks, and throw FileError on all of them; record() and add_results()
+/// NonFiniteError, too.
 class ResultFiles {
  public:
   /// @param drawn  is the geometry of the mesh in the files
@@ -54,11 +58,13 @@ class ResultFiles {
   ResultFiles(assembly::System& system, const model::Model& drawn, ResultSettings settings,
               const std::vector<WatchedQuantity>& watched, const Snapshot* from);
 
+  ~ResultFiles();
+
   /// Goes on with another system of the same structures, and its quantities of the same names.
   void use(assembly::System& system, const std::vector<WatchedQuantity>& watched);
 
   /// How much there is, under "output/" with checksums, and whose it is, under "run/".
-  void save(Snapshot& snapshot) const;
+  void save(Snapshot& snapshot);
 
   /// That of the present analysis.
   const model::Model& model() const { return system_->model(); }
@@ -86,7 +92,7 @@ class ResultFiles {
   bool is_due(int before, int step) const {
     return step / settings_.every > before / settings_.every;
   }
-  /// Records a whole state.
+  /// Records a state.
   /// @param analysis, step  as in output::HistoryRow
   /// @param was_solved      whether the last evaluation was that of this state, so that forces of
   ///                        constraints are known
@@ -111,12 +117,16 @@ class ResultFiles {
   };
 
   std::vector<output::StructureMesh> meshes_in(const model::Model& model) const;
+  void make_part();
+  void refuse(const output::Picture& picture);
+  void draw(output::Picture picture);
+  void draw_last();
   void restore_counts(const Snapshot& saved);
-  output::Pictures open_pictures(const output::SharedMeshes& meshes) const;
+  std::optional<output::Pictures> open_pictures(std::vector<output::StructureMesh> meshes) const;
   std::optional<output::Pictures> open_fluid() const;
   void add_fluid(int index, double time, const model::State& state);
-  void open(const output::SharedMeshes& meshes);
-  void reopen(const output::SharedMeshes& meshes, const output::RecordMark& mark);
+  void open(std::vector<output::StructureMesh> meshes);
+  void reopen(std::vector<output::StructureMesh> meshes, const output::RecordMark& mark);
 
   assembly::System* system_;
   const model::Model* drawn_;
@@ -124,6 +134,9 @@ class ResultFiles {
   const std::vector<WatchedQuantity>* watched_;
   std::optional<std::vector<int>> read_nodes_;  ///< by what is watched; none: everything
   bool shows_fluid_ = false;                    ///< in pictures of their own
+  std::unique_ptr<PicturePart> part_;
+  std::unique_ptr<SharedStates> states_;
+  std::optional<output::Picture> last_;  ///< this rank's part of a state that has no picture yet
   std::unique_ptr<Files> files_;
   std::vector<std::filesystem::path> analysis_files_;  ///< for listing()
   std::size_t frames_ = 0;

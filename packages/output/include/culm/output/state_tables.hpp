@@ -1,6 +1,7 @@
 /// Where the numbers of structures stand in the tables of a state.
 #pragma once
 
+#include <culm/base/row_ranges.hpp>
 #include <culm/output/structure_fields.hpp>
 
 #include <cstddef>
@@ -23,6 +24,7 @@ struct FieldRows {
   std::size_t table = 0;
   std::size_t first = 0;
   std::size_t rows = 0;
+  bool is_of_cells = false;
 };
 
 /// Structures of one type with the same fields, which follow each other in all tables.
@@ -33,9 +35,16 @@ struct StateGroup {
   std::vector<FieldRows> fields;
 };
 
+/// The nodes and cells of a structure that a process has.
+struct StructurePart {
+  RowRanges nodes;
+  RowRanges cells;
+};
+
 /// The tables of the states of a model.
 class StateTables {
  public:
+  /// @param structures  whole, whoever has them
   explicit StateTables(const std::vector<StructureFields>& structures);
 
   const std::vector<StateTable>& tables() const { return tables_; }
@@ -43,16 +52,22 @@ class StateTables {
   /// Fields of a structure: position, displacement, directors, arrays of nodes, resultants if it
   /// has some, arrays of cells.
   const std::vector<FieldRows>& fields(std::size_t structure) const { return fields_[structure]; }
-  /// All numbers of a state in a table. @param reference  of the displacements
+  /// All numbers of a state in a table, or those of parts of the structures.
+  /// @param reference  of the displacements; of the same nodes
   std::vector<double> values(std::size_t table, const std::vector<StructureMesh>& reference,
                              const std::vector<StructureState>& states) const;
+  /// The rows of a table that these are.
+  RowRanges rows(std::size_t table, const std::vector<StructurePart>& parts) const;
   /// The cells of a group in XDMF, with the nodes numbered through its structures.
   static std::vector<int> topology(const StateGroup& group,
                                    const std::vector<StructureMesh>& meshes);
 
  private:
+  template <class Action>
+  void each_field(std::size_t table, Action action) const;
   void make_groups(const std::vector<StructureFields>& structures);
-  void add(std::vector<FieldRows>& fields, const std::string& field, int columns, std::size_t rows);
+  void add(std::vector<FieldRows>& fields, const std::string& field, int columns, std::size_t rows,
+           bool is_of_cells = false);
 
   std::vector<StateTable> tables_;
   std::vector<std::string> field_of_;  ///< by table
