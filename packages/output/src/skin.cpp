@@ -22,9 +22,9 @@ std::vector<int> count_line_ends(const StructureMesh& mesh) {
 
 }  // namespace
 
-Skin::Skin(const StructureMesh& mesh)
-    : outlines_(mesh.outlines), first_point_(mesh.positions.size(), 0) {
-  outlines_.resize(mesh.positions.size());
+Skin::Skin(const StructureMesh& mesh) : outlines_(mesh.outlines) {
+  if (outlines_.empty()) return;
+  first_point_.assign(mesh.positions.size(), 0);
   std::vector<bool> skinned(outlines_.size(), false);
   for (const Cell& cell : mesh.cells) {
     if (!has_outlines(cell)) continue;

@@ -90,10 +90,13 @@ void Pictures::list_anew(Collections& collections, Files Step::*files) {
   collections.whole->replace(all);
 }
 
+// Nothing but skins asks for triads of the reference, which take most of the memory of a mesh.
 void Pictures::make_skins() {
-  for (const StructureMesh& mesh : meshes_) {
+  for (StructureMesh& mesh : meshes_) {
     const Skin& skin = skins_.emplace_back(mesh);
     reference_skins_.push_back(skin.points(mesh.positions, mesh.triads));
+    mesh.triads = {};
+    mesh.outlines = {};
   }
 }
 

@@ -65,7 +65,7 @@ Patch make_patch(const model::Model& model, int structure, int number) {
   Patch patch;
   patch.structure = structure;
   patch.cell = number;
-  const model::CellNodes& nodes = model.structures()[static_cast<std::size_t>(structure)]
+  const CellNodes& nodes = model.structures()[static_cast<std::size_t>(structure)]
                                       .cells[static_cast<std::size_t>(number)]
                                       .nodes;
   patch.nodes.assign(nodes.begin(), nodes.end());

@@ -229,7 +229,11 @@ PicturePart::PicturePart(const assembly::System& system, const model::Model& dra
   for (std::size_t s = 0; s < rows_.size(); ++s) {
     const model::Structure& structure = drawn.structures()[s];
     output::StructureMesh& mesh = meshes_.emplace_back(frame_of(structure, layers));
-    read_nodes(structure, rows_[s].nodes, drawn.nodes().reference(), mesh.positions, mesh.triads);
+    // by which displacements are known; turns are not shown as differences
+    each_row(rows_[s].nodes, [&](std::size_t row) {
+      mesh.positions.emplace_back(
+          NodeTable::slots(drawn.nodes().reference(), structure.nodes[row]).col(0));
+    });
   }
 }
 

@@ -28,7 +28,7 @@ class PicturePart {
 
   /// Rows of this rank, by structure.
   const std::vector<output::StructurePart>& rows() const { return rows_; }
-  /// The structures, with these nodes in the reference and without cells.
+  /// The structures, with the places of these nodes in the reference, without triads and cells.
   const std::vector<output::StructureMesh>& meshes() const { return meshes_; }
   /// Those of the whole model.
   output::StateTables tables() const;

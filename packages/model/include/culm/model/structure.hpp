@@ -1,13 +1,11 @@
 /// Named groups of nodes and elements, and the material points they give out.
 #pragma once
 
+#include <culm/base/cell_nodes.hpp>
 #include <culm/math/types.hpp>
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <initializer_list>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -69,27 +67,6 @@ class LinePoints {
 struct Face {
   std::array<int, 4> nodes;
   double thickness = 0.0;  ///< zeta from -thickness / 2 to thickness / 2 [m]
-};
-
-/// Up to four nodes, in place.
-class CellNodes {
- public:
-  CellNodes(std::initializer_list<int> nodes) : CellNodes(nodes.begin(), nodes.end()) {}
-  template <std::input_iterator Iterator>
-  CellNodes(Iterator first, Iterator last) {
-    for (; first != last; ++first) nodes_.at(size_++) = *first;
-  }
-
-  std::size_t size() const { return size_; }
-  int operator[](std::size_t a) const { return nodes_[a]; }
-  int front() const { return nodes_.front(); }
-  const int* data() const { return nodes_.data(); }
-  const int* begin() const { return data(); }
-  const int* end() const { return data() + size_; }
-
- private:
-  std::array<int, 4> nodes_{};
-  std::uint8_t size_ = 0;
 };
 
 /// What an element looks like in pictures: its nodes in order along the line or around the face.

@@ -1,6 +1,7 @@
 /// What the output writers are given: plain data of a model.
 #pragma once
 
+#include <culm/base/cell_nodes.hpp>
 #include <culm/math/types.hpp>
 
 #include <Eigen/Core>
@@ -22,7 +23,7 @@ enum class CellType {
 /// One element as a picture shows it.
 struct Cell {
   CellType type = CellType::vertex;
-  std::vector<int> nodes;  ///< node numbers within the structure, from 0
+  CellNodes nodes;  ///< numbers within the structure, from 0
 };
 
 /// The directors that the nodes of a structure carry.
