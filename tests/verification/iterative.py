@@ -56,12 +56,12 @@ def verify_deck(culm, report, name):
 
 
 def verify_thin_plate(culm, report):
-    """Elements ten times as long as thick: without bending of aggregates 90 iterations."""
+    """Elements ten times as long as thick: 44 iterations without soft modes of patches."""
     report.title(f"elements longer than thick: {THIN}")
     direct = run(culm, THIN, THIN_SETTINGS, "MUMPS")
     found = run(culm, THIN, THIN_SETTINGS, "Iterative")
     report.holds("ends", difference(ends(found.history), ends(direct.history)), 1e-7)
-    report.holds("iterations at most", int(REMARK.search(found.output).group(2)), 60)
+    report.holds("iterations at most", int(REMARK.search(found.output).group(2)), 25)
 
 
 def limit_points(output):

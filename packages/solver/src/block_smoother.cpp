@@ -44,7 +44,16 @@ BlockSmoother::BlockSmoother(const GridLevel& grid)
   inverse_.resize(at);
   leaves_.resize(index(grid.nodes()));
   refresh();
-  find_largest();
+  largest_ = upper_ = find_largest();
+}
+
+void BlockSmoother::add_modes(const std::vector<bool>& carried, const parallel::Comm& comm) {
+  modes_.emplace(grid_, carried, comm);
+  if (modes_->count() == 0) {
+    modes_.reset();
+  } else {
+    upper_ = find_largest();
+  }
 }
 
 void BlockSmoother::refresh() {
@@ -70,22 +79,26 @@ void BlockSmoother::refresh() {
   }
 }
 
-void BlockSmoother::divide(std::span<const double> r, std::span<double> z) const {
+// z = M r
+void BlockSmoother::precondition(const Vector& r, Vector& z) {
+  const auto from = r.values();
+  const auto to = z.values();
   for (int node = 0; node < grid_.nodes(); ++node) {
     const int width = grid_.width(node);
     const int first = grid_.first_column(node);
     const Eigen::Map<const RowMajor> inverse(this->inverse(node), width, width);
-    Eigen::Map<Eigen::VectorXd>(z.data() + first, width).noalias() =
-        inverse * Eigen::Map<const Eigen::VectorXd>(r.data() + first, width);
+    Eigen::Map<Eigen::VectorXd>(to.data() + first, width).noalias() =
+        inverse * Eigen::Map<const Eigen::VectorXd>(from.data() + first, width);
   }
+  if (modes_) modes_->add(r, z);
 }
 
-// Lanczos' method for D^-1 A in the inner product of D, in the form of conjugate gradients.
-void BlockSmoother::find_largest() {
+// Lanczos' method for M A in the inner product of M^-1, in the form of conjugate gradients.
+double BlockSmoother::find_largest() {
   Vector z(rest_.rows()), direction(rest_.rows());
   fill_irregular(rest_);
   std::vector<double> alpha, beta;
-  divide(rest_.values(), z.values());
+  precondition(rest_, z);
   double size = rest_.dot(z);
   direction = z;
   while (size > 0.0 && alpha.size() < lanczos_steps) {
@@ -94,14 +107,14 @@ void BlockSmoother::find_largest() {
     if (!(energy > 0.0)) break;
     alpha.push_back(size / energy);
     rest_.update(-alpha.back(), product_);
-    divide(rest_.values(), z.values());
+    precondition(rest_, z);
     const double before = size;
     size = rest_.dot(z);
     beta.push_back(size / before);
     direction.update(1.0, z, beta.back());
   }
   const auto count = static_cast<Eigen::Index>(alpha.size());
-  if (count == 0) return;
+  if (count == 0) return 1.0;
   Eigen::MatrixXd tridiagonal = Eigen::MatrixXd::Zero(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -111,26 +124,26 @@ void BlockSmoother::find_largest() {
           std::sqrt(std::abs(beta[k - 1])) / alpha[k - 1];
     }
   }
-  largest_ = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(tridiagonal, Eigen::EigenvaluesOnly)
-                 .eigenvalues()
-                 .maxCoeff();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(tridiagonal, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
 }
 
 void BlockSmoother::smooth(const Vector& b, Vector& x) {
-  const double upper = margin * largest_;
+  const double upper = margin * upper_;
   const double lower = upper / span_of_eigenvalues;
   const double centre = 0.5 * (upper + lower);
   const double radius = 0.5 * (upper - lower);
   const double sigma = centre / radius;
   double rho = 1.0 / sigma;
   rest_ = b;
-  divide(rest_.values(), step_.values());
+  precondition(rest_, step_);
   step_.scale(1.0 / centre);
   x = step_;
   for (int k = 1; k < degree; ++k) {
     grid_.multiply(step_, product_);
     rest_.update(-1.0, product_);
-    divide(rest_.values(), product_.values());
+    precondition(rest_, product_);
     const double next = 1.0 / (2.0 * sigma - rho);
     step_.update(2.0 * next / radius, product_, next * rho);
     x.update(1.0, step_);

@@ -1,21 +1,25 @@
 /// Chebyshev iteration with the inverse blocks of nodes.
 #pragma once
 
-#include "grid_level.hpp"
+#include "patch_modes.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace culm::solver {
 
-/// Reduces errors that differ from node to node: a polynomial in D^-1 A that is small between a
-/// share of the largest eigenvalue and that value. D are the diagonal blocks of the nodes.
+/// Reduces errors that differ from node to node: a polynomial in M A that is small between a
+/// share of the largest eigenvalue and that value. M are the inverse diagonal blocks D^-1 of the
+/// nodes, and the soft modes of patches where there are some.
 /// @source M. Adams et al., Parallel multigrid smoothing: polynomial versus Gauss-Seidel, 2003
 class BlockSmoother {
  public:
   /// Takes the present values, and finds the largest eigenvalue. Collective.
   explicit BlockSmoother(const GridLevel& grid);
 
-  /// Takes new values of the matrix; the eigenvalue stays.
+  /// Takes the soft modes of patches, too. @param carried  as for PatchModes. Collective.
+  void add_modes(const std::vector<bool>& carried, const parallel::Comm& comm);
+  /// Takes new values of the matrix for the blocks; modes and eigenvalues stay.
   void refresh();
   /// Whether a node has no block that can be inverted, and is left as it is.
   bool leaves(int node) const { return leaves_[static_cast<std::size_t>(node)]; }
@@ -29,14 +33,16 @@ class BlockSmoother {
   void smooth(const assembly::Vector& b, assembly::Vector& x);
 
  private:
-  void find_largest();
-  void divide(std::span<const double> r, std::span<double> z) const;
+  double find_largest();
+  void precondition(const assembly::Vector& r, assembly::Vector& z);
 
   const GridLevel& grid_;
   std::vector<std::size_t> first_;
   std::vector<double> inverse_;
   std::vector<bool> leaves_;
-  double largest_ = 1.0;
+  std::optional<PatchModes> modes_;
+  double largest_ = 1.0;  // of D^-1 A
+  double upper_ = 1.0;    // of M A
   assembly::Vector rest_, step_, product_;
 };
 

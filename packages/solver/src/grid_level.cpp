@@ -50,6 +50,22 @@ GridLevel::GridLevel(Teuchos::RCP<const assembly::CrsMatrix> matrix, const std::
   }
 }
 
+std::vector<bool> GridLevel::share(const std::vector<bool>& marks) const {
+  std::vector<bool> all = marks;
+  const auto importer = matrix_->getGraph()->getImporter();
+  if (importer.is_null()) return all;
+  Vector mine(assembly::rows_of(matrix_->getRowMap()));
+  for (std::size_t row = 0; row < mine.values().size(); ++row) {
+    mine.values()[row] = marks[static_cast<std::size_t>(node_of_[row])] ? 1.0 : 0.0;
+  }
+  Vector columns(assembly::rows_of(matrix_->getColMap()));
+  tpetra(columns).doImport(tpetra(mine), *importer, Tpetra::INSERT);
+  for (int node = nodes(); node < all_nodes(); ++node) {
+    all.push_back(columns.values()[static_cast<std::size_t>(first_column(node))] != 0.0);
+  }
+  return all;
+}
+
 void GridLevel::multiply(const Vector& x, Vector& y) const { matrix_->apply(tpetra(x), tpetra(y)); }
 
 }  // namespace culm::solver

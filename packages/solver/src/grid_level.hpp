@@ -38,6 +38,8 @@ class GridLevel {
   /// Where the nodes of each rank begin, and the end.
   const std::vector<long long>& begin() const { return begin_; }
 
+  /// Marks of all nodes, from those of the nodes of each rank. Collective.
+  std::vector<bool> share(const std::vector<bool>& marks) const;
   /// y = A x; collective.
   void multiply(const assembly::Vector& x, assembly::Vector& y) const;
 

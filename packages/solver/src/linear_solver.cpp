@@ -27,7 +27,8 @@ class NothingToSolve final : public LinearSolver {
 };
 
 // An estimate [B per entry of the matrix] of the grids, the factors of the coarsest and the vectors
-// of conjugate gradients; plates of 200 x 200 and 400 x 400 elements took 24 and 23.
+// of conjugate gradients; plates of 200 x 200 and 400 x 400 elements took 24 and 23, and the soft
+// modes of elements that are much longer than thick 2 more.
 constexpr double iterative_need = 22.0;
 
 ChosenSolver choose_iterative(const std::string& why,

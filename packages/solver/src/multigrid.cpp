@@ -35,27 +35,11 @@ std::vector<bool> find_special(const GridLevel& grid, const BlockSmoother& smoot
 
 // That with its neighbours.
 std::vector<bool> with_neighbours(const std::vector<bool>& special, const GridLevel& grid) {
-  // neighbours on other ranks are told by a vector
-  const auto& matrix = *grid.matrix();
-  Vector mark(assembly::rows_of(matrix.getRowMap()));
-  const auto marks = mark.values();
-  for (int node = 0; node < grid.nodes(); ++node) {
-    for (int i = 0; i < grid.width(node); ++i) {
-      marks[index(grid.first_column(node) + i)] = special[index(node)] ? 1.0 : 0.0;
-    }
-  }
-  const auto importer = matrix.getGraph()->getImporter();
-  Vector all(assembly::rows_of(matrix.getColMap()));
-  if (importer.is_null()) {
-    all = mark;
-  } else {
-    tpetra(all).doImport(tpetra(mark), *importer, Tpetra::INSERT);
-  }
-  const auto is_special = std::as_const(all).values();
+  const std::vector<bool> all = grid.share(special);
   std::vector<bool> carried = special;
   for (int node = 0; node < grid.nodes(); ++node) {
     for (int column : grid.rows().columns(node)) {
-      if (is_special[index(column)] != 0.0) carried[index(node)] = true;
+      if (all[index(grid.node_of(column))]) carried[index(node)] = true;
     }
   }
   return carried;
@@ -90,6 +74,7 @@ Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
     const bool all_move = std::ranges::find(special, true) == special.end();
     may_be_definite_ = may_be_definite_ && comm.max(all_move ? 0 : 1) == 0;
     const std::vector<bool> carried = with_neighbours(special, level->grid);
+    level->smoother.add_modes(carried, comm);
     const Aggregates aggregates = aggregate(level->grid, carried);
     if (motions_with_bending * comm.sum(aggregates.count) > largest_coarsest) surface = {};
     Prolongation coarse = join(level->grid, aggregates, carried, surface, comm);
