@@ -66,8 +66,8 @@ Patch make_patch(const model::Model& model, int structure, int number) {
   patch.structure = structure;
   patch.cell = number;
   const CellNodes& nodes = model.structures()[static_cast<std::size_t>(structure)]
-                                      .cells[static_cast<std::size_t>(number)]
-                                      .nodes;
+                               .cells[static_cast<std::size_t>(number)]
+                               .nodes;
   patch.nodes.assign(nodes.begin(), nodes.end());
   if (patch.nodes.size() > 1) {
     const bool is_surface = model.nodes().kind(patch.nodes.front()) == NodeKind::node6;

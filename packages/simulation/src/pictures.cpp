@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -179,17 +180,15 @@ output::StructureMesh mesh_of(const model::Structure& structure, const LayerSett
 template <class Matrix>
 std::vector<Matrix> gather_each(const parallel::Comm& comm, std::size_t rows, const RowRanges& own,
                                 const std::vector<Matrix>& each) {
-  constexpr auto width = static_cast<std::size_t>(Matrix::SizeAtCompileTime);
   if (comm.max(each.empty() ? 0 : 1) == 0) return {};
-  std::vector<double> numbers;
-  numbers.reserve(width * each.size());
-  for (const Matrix& m : each) numbers.insert(numbers.end(), m.data(), m.data() + width);
-  const std::vector<double> all = parallel::gather_rows(comm, rows, width, own, std::move(numbers));
-  std::vector<Matrix> whole;
-  whole.reserve(all.size() / width);
-  for (std::size_t i = 0; i < all.size(); i += width) {
-    whole.emplace_back(Eigen::Map<const Matrix>(all.data() + i));
-  }
+  constexpr auto width = static_cast<std::size_t>(Matrix::SizeAtCompileTime);
+  static_assert(sizeof(Matrix) == width * sizeof(double));
+  std::vector<Matrix> whole(comm.is_root() ? rows : 0);
+  const auto numbers = [](auto& matrices) {
+    auto* const first = matrices.empty() ? nullptr : matrices.front().data();
+    return std::span(first, width * matrices.size());
+  };
+  parallel::gather_rows(comm, width, own, numbers(each), numbers(whole));
   return whole;
 }
 

@@ -12,20 +12,18 @@
 
 namespace culm::parallel {
 
-/// The rows of a table that the ranks have together, on rank 0; empty elsewhere. Collective.
-/// @param rows     of the table; those that nobody has are zero
+/// Brings the rows of a table that the ranks have together to rank 0. Collective.
 /// @param own      the rows of this rank
 /// @param numbers  row after row
-inline std::vector<double> gather_rows(const Comm& comm, std::size_t rows, std::size_t width,
-                                       const RowRanges& own, std::vector<double> numbers) {
-  if (comm.size() == 1 && numbers.size() == rows * width) return numbers;
+/// @param all      the table, on rank 0; rows that nobody has stay as they are
+inline void gather_rows(const Comm& comm, std::size_t width, const RowRanges& own,
+                        std::span<const double> numbers, std::span<double> all) {
   std::vector<long long> ends;  // of the ranges of this rank
   for (const RowRange& range : own) {
     ends.push_back(static_cast<long long>(range.first));
     ends.push_back(static_cast<long long>(range.first + range.count));
   }
   ends = comm.gather(std::span<const long long>(ends));
-  std::vector<double> all(comm.is_root() ? rows * width : 0);
   auto range = ends.begin();
   comm.gather(numbers, [&](int, std::span<const double> piece) {
     while (!piece.empty()) {
@@ -35,6 +33,14 @@ inline std::vector<double> gather_rows(const Comm& comm, std::size_t rows, std::
       piece = piece.subspan(count);
     }
   });
+}
+
+/// The same as a new table; empty on other ranks. @param rows  of the table
+inline std::vector<double> gather_rows(const Comm& comm, std::size_t rows, std::size_t width,
+                                       const RowRanges& own, std::vector<double> numbers) {
+  if (comm.size() == 1 && numbers.size() == rows * width) return numbers;
+  std::vector<double> all(comm.is_root() ? rows * width : 0);
+  gather_rows(comm, width, own, numbers, all);
   return all;
 }
 
