@@ -296,7 +296,13 @@ Verdict System::evaluate_delayed(const model::State& state, const Stencil& stenc
 }
 
 Evaluation System::evaluate(const model::State& state, const Stencil& stencil, Want want) {
-  model::Target target = want == Want::residual ? this->target() : target_with_matrix();
+  constexpr std::size_t worth_waiting = 65536;  // numbers; fewer stay in the cache
+  model::Target target = this->target();
+  if (want != Want::residual) {
+    target.values = matrix_->values();
+    target.stale_from = 0;
+    if (target.values.size() < worth_waiting) target.clear_rest();
+  }
   if (watches_tangents_ && want != Want::residual) tangent_point_ = state.next;
   Verdict verdict = Verdict::ok;
   std::optional<Ledger::Scope> scope;
@@ -312,6 +318,7 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
     }
   });
   scope.reset();
+  target.clear_rest();
   const double carried = stencil.inertia != 0.0 ? 1.0 / stencil.step : held_share_;
   if (carried_ && carried != 0.0) {
     for (std::size_t row = 0; row < carried_->size(); ++row) {

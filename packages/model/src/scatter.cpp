@@ -1,7 +1,17 @@
 #include <culm/math/vector_units.hpp>
 #include <culm/model/scatter.hpp>
 
+#include <algorithm>
+
 namespace culm::model {
+
+void Target::clear(std::size_t end) {
+  constexpr std::size_t least = 2048;  // numbers, a third of the nearest cache
+  const std::size_t to = std::min(values.size(), std::max(end, stale_from + least));
+  std::fill(values.begin() + static_cast<std::ptrdiff_t>(stale_from),
+            values.begin() + static_cast<std::ptrdiff_t>(to), 0.0);
+  stale_from = to < values.size() ? to : none;
+}
 
 void Scatter::add_item(std::span<const Rows> rows, std::span<const int> offsets) {
   rows_.insert(rows_.end(), rows.begin(), rows.end());

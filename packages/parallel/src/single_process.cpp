@@ -31,6 +31,7 @@ void expect_single_process() {
   ::setenv("OMPI_MCA_btl", "self", keep);
   // displays and PCI devices, and how messages of many would best be gathered, need not be known
   ::setenv("HWLOC_COMPONENTS", "-gl,-pci,-linuxio,-x86", keep);
+  ::setenv("HWLOC_PLUGINS_PATH", "/nonexistent", keep);
   ::setenv("OMPI_MCA_coll", "^adapt,han,monitoring,sm,sync,tuned", keep);
   // all such processes would share one folder, and the first to end would remove it
   ::setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);

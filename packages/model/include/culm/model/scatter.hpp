@@ -4,6 +4,8 @@
 #include <culm/math/types.hpp>
 #include <culm/model/unknowns.hpp>
 
+#include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,6 +13,8 @@ namespace culm::model {
 
 /// The owned part of a linear system that batches add to. CSR, one row per owned unknown.
 struct Target {
+  static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
   std::span<double> residual;
   std::span<double> reactions;             ///< on unknowns that supports took away; may be empty
   std::span<double> values;                ///< CSR values; empty when no tangent is wanted
@@ -18,6 +22,21 @@ struct Target {
   double force_scale = 0.0;                ///< largest force any item added
   double constraint_violation = 0.0;       ///< largest |h|, lengths over the model's length
   double multiplier_scale = 1.0;           ///< unknowns are multipliers / scale, rows times scale
+  /// From where on the values are still those of another matrix; none where all are to be added to.
+  std::size_t stale_from = none;
+
+  /// Sets stale values to zero as far as they are added to next. So they are written while they are
+  /// in the cache, where one pass over a large matrix before would drive them out of it again.
+  void reach(std::size_t end) {
+    if (end > stale_from) clear(end);
+  }
+  /// Sets all stale values to zero.
+  void clear_rest() {
+    if (stale_from != none) clear(values.size());
+  }
+
+ private:
+  void clear(std::size_t end);
 };
 
 /// Adds six rows of `width` numbers to the rows of values that begin at `begin`.
@@ -69,6 +88,7 @@ class Scatter {
     const BlockShape& column_shape = *rows_[first + static_cast<std::size_t>(b)].shape;
     const auto blocks = static_cast<int>(first_block_[item + 1] - first);
     const int offset = offsets_[first_pair_[item] + static_cast<std::size_t>(a * blocks + b)];
+    target.reach(target.row_begin[static_cast<std::size_t>(rows.first + row_shape.active)]);
     if (is_node(row_shape) && is_node(column_shape)) {
       const std::size_t* row = target.row_begin.data() + rows.first;
       for (int i = 0; i < 6; ++i) {
@@ -127,6 +147,7 @@ class Scatter {
       }
       return;
     }
+    target.reach(target.row_begin[static_cast<std::size_t>(rows.first + 6)]);
     add_six_rows<6 * N>(K, target.row_begin.data() + rows.first, target.values.data() + offsets[0]);
   }
 
