@@ -13,11 +13,12 @@ import functools
 import subprocess
 import sys
 
-from resume import EVERY_STEP, SHELL, TORSION, check_killed, demand, demand_same, run_each
+from resume import EVERY_STEP, MANY_NODES, SHELL, TORSION, check_killed, demand, demand_same, run_each, settings
 
 # a run, and for which parts of its results there is room
 RUNS = [("torsion", TORSION, 0.4), ("torsion", TORSION, 0.7), ("shell", SHELL, 0.4), ("shell", SHELL, 0.7)]
-ON_SEVERAL_RANKS = RUNS[-1:]  # mpiexec takes its time
+# mpiexec takes its time; of the last one all ranks write
+ON_SEVERAL_RANKS = [RUNS[-1], ("many nodes", MANY_NODES + settings("Analyses/motion/End Time=0.2"), 0.6)]
 FULL = "No space left on device"
 
 
