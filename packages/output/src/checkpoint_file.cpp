@@ -111,7 +111,11 @@ class CheckpointFile::Writer {
     flush();
     const std::uint64_t place = sizeof header_ + header_.length;
     header_.count = count;
-    demand(::ftruncate(file_.number(), static_cast<off_t>(place + count * sizeof(double))) == 0);
+    if (count == 0) return place;
+    // taken from the disk now: who writes it later may not be told that the disk is full
+    errno = ::posix_fallocate(file_.number(), static_cast<off_t>(place),
+                              static_cast<off_t>(count * sizeof(double)));
+    demand(errno == 0);
     return place;
   }
   void finish(std::uint64_t sum) {

@@ -178,8 +178,14 @@ Handle Hdf5File::make_table(hid_t where, const std::string& name, const Shape& s
 
 std::optional<std::uint64_t> Hdf5File::room_of(const Handle& table) const {
   const haddr_t place = H5Dget_offset(table.id());
-  const JournaledFile* const file = journaled_file(file_.id());
+  JournaledFile* const file = journaled_file(file_.id());
   if (place == HADDR_UNDEF || file == nullptr || place < file->committed_size()) return {};
+  try {
+    // a full disk is found here, and not by one of those who write
+    file->reserve(place, H5Dget_storage_size(table.id()));
+  } catch (const std::system_error& reason) {
+    throw FileError(path_.string(), fmt::format("cannot write file: {}", reason.what()));
+  }
   return place;
 }
 

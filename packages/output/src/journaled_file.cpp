@@ -149,6 +149,11 @@ void JournaledFile::write(std::uint64_t offset, std::span<const std::byte> bytes
   size_ = std::max(size_, offset + bytes.size());
 }
 
+void JournaledFile::reserve(std::uint64_t offset, std::uint64_t length) {
+  errno = ::posix_fallocate(file_, static_cast<off_t>(offset), static_cast<off_t>(length));
+  if (errno != 0) fail("extend");
+}
+
 void JournaledFile::resize(std::uint64_t size) {
   // Longer at once, since readers refuse a file that ends too early; shorter only in commit().
   if (size > size_ && ::ftruncate(file_, static_cast<off_t>(size)) != 0) fail("extend");

@@ -36,6 +36,8 @@ class JournaledFile {
   /// Bytes as written so far, committed or not; zeros behind the end.
   void read(std::uint64_t offset, std::span<std::byte> bytes) const;
   void write(std::uint64_t offset, std::span<const std::byte> bytes);
+  /// Takes room from the disk for what others write.
+  void reserve(std::uint64_t offset, std::uint64_t length);
   /// Length of the file from the next commit on.
   void resize(std::uint64_t size);
   std::uint64_t size() const { return size_; }

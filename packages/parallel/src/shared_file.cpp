@@ -64,8 +64,11 @@ void SharedFile::write(std::uint64_t place, std::size_t width, std::span<const R
   check(MPI_File_set_view(file_, static_cast<MPI_Offset>(place), row.get(), view.get(), "native",
                           MPI_INFO_NULL),
         "write file");
-  check(MPI_File_write_at_all(file_, 0, numbers.data(), count, row.get(), MPI_STATUS_IGNORE),
-        "write file");
+  MPI_Status status;
+  check(MPI_File_write_at_all(file_, 0, numbers.data(), count, row.get(), &status), "write file");
+  int written = 0;
+  MPI_Get_count(&status, row.get(), &written);
+  check(written == count ? MPI_SUCCESS : MPI_ERR_IO, "write all of file");
 }
 
 void SharedFile::sync() { check(MPI_File_sync(file_), "write file"); }

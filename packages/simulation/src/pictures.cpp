@@ -211,6 +211,35 @@ std::vector<output::StructurePart> parts_of(const assembly::System& system) {
   return parts;
 }
 
+std::vector<output::StructureMesh> meshes_of_part(const model::Model& drawn,
+                                                  const std::vector<output::StructurePart>& rows,
+                                                  const LayerSettings& layers, bool velocities) {
+  std::vector<output::StructureMesh> meshes;
+  for (std::size_t s = 0; s < rows.size(); ++s) {
+    const model::Structure& structure = drawn.structures()[s];
+    output::StructureMesh& mesh = meshes.emplace_back(frame_of(structure, layers));
+    // by which displacements are known; turns are not shown as differences
+    each_row(rows[s].nodes, [&](std::size_t row) {
+      mesh.positions.emplace_back(
+          NodeTable::slots(drawn.nodes().reference(), structure.nodes[row]).col(0));
+    });
+  }
+  if (velocities) show_velocities(meshes);
+  return meshes;
+}
+
+// Of whole structures, given what a rank has of them.
+output::StateTables tables_of(const model::Model& model,
+                              const std::vector<output::StructureMesh>& meshes) {
+  std::vector<output::StructureFields> structures;
+  for (std::size_t s = 0; s < meshes.size(); ++s) {
+    structures.push_back(output::fields_of(meshes[s]));
+    structures.back().nodes = model.structures()[s].nodes.size();
+    structures.back().cells = model.structures()[s].cells.size();
+  }
+  return output::StateTables(structures);
+}
+
 }  // namespace
 
 std::vector<output::StructureMesh> meshes_of(const model::Model& model,
@@ -223,29 +252,12 @@ std::vector<output::StructureMesh> meshes_of(const model::Model& model,
 }
 
 PicturePart::PicturePart(const assembly::System& system, const model::Model& drawn,
-                         const LayerSettings& layers)
-    : system_(&system), layers_(layers), rows_(parts_of(system)) {
-  for (std::size_t s = 0; s < rows_.size(); ++s) {
-    const model::Structure& structure = drawn.structures()[s];
-    output::StructureMesh& mesh = meshes_.emplace_back(frame_of(structure, layers));
-    // by which displacements are known; turns are not shown as differences
-    each_row(rows_[s].nodes, [&](std::size_t row) {
-      mesh.positions.emplace_back(
-          NodeTable::slots(drawn.nodes().reference(), structure.nodes[row]).col(0));
-    });
-  }
-}
-
-output::StateTables PicturePart::tables() const {
-  std::vector<output::StructureFields> structures;
-  for (std::size_t s = 0; s < meshes_.size(); ++s) {
-    const model::Structure& structure = system_->model().structures()[s];
-    structures.push_back(output::fields_of(meshes_[s]));
-    structures.back().nodes = structure.nodes.size();
-    structures.back().cells = structure.cells.size();
-  }
-  return output::StateTables(structures);
-}
+                         const LayerSettings& layers, bool velocities)
+    : system_(&system),
+      layers_(layers),
+      rows_(parts_of(system)),
+      meshes_(meshes_of_part(drawn, rows_, layers, velocities)),
+      tables_(tables_of(system.model(), meshes_)) {}
 
 output::Picture PicturePart::draw(const model::Coordinates& q) const {
   output::Picture picture;
@@ -314,8 +326,6 @@ void show_velocities(std::vector<output::StructureMesh>& meshes) {
     }
   }
 }
-
-void PicturePart::show_velocities() { simulation::show_velocities(meshes_); }
 
 void PicturePart::add_velocities(const model::State& state, output::Picture& picture) const {
   for (std::size_t s = 0; s < rows_.size(); ++s) {

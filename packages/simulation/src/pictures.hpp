@@ -19,19 +19,17 @@ void show_velocities(std::vector<output::StructureMesh>& meshes);
 /// What a rank has of a picture: the nodes that it owns, and the cells whose elements it evaluates.
 class PicturePart {
  public:
-  /// @param drawn  is the geometry of the mesh, of the same structures
+  /// @param drawn       is the geometry of the mesh, of the same structures
+  /// @param velocities  whether they are part of what is shown
   PicturePart(const assembly::System& system, const model::Model& drawn,
-              const LayerSettings& layers);
-
-  /// Makes velocities part of what is shown.
-  void show_velocities();
+              const LayerSettings& layers, bool velocities = false);
 
   /// Rows of this rank, by structure.
   const std::vector<output::StructurePart>& rows() const { return rows_; }
   /// The structures, with the places of these nodes in the reference, without triads and cells.
   const std::vector<output::StructureMesh>& meshes() const { return meshes_; }
   /// Those of the whole model.
-  output::StateTables tables() const;
+  const output::StateTables& tables() const { return tables_; }
 
   /// This rank's part of the picture of a configuration; index and time stay zero.
   /// @param q  up to date for the nodes that the rank needs
@@ -39,7 +37,7 @@ class PicturePart {
   /// Lets displacements of a picture start from the geometry of the model of the system, which
   /// imperfections may have bent against that of the mesh.
   void add_reference(output::Picture& picture) const;
-  /// Adds the numbers of show_velocities(); zero in statics.
+  /// Adds velocities; zero in statics.
   void add_velocities(const model::State& state, output::Picture& picture) const;
 
   /// The whole picture, on rank 0. Collective.
@@ -50,6 +48,7 @@ class PicturePart {
   LayerSettings layers_;
   std::vector<output::StructurePart> rows_;
   std::vector<output::StructureMesh> meshes_;
+  output::StateTables tables_;
 };
 
 /// The structures in a configuration, on rank 0; index and time stay zero. Collective.

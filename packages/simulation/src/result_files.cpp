@@ -103,8 +103,7 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
 ResultFiles::~ResultFiles() = default;
 
 void ResultFiles::make_part() {
-  part_ = std::make_unique<PicturePart>(*system_, *drawn_, settings_.layers);
-  if (settings_.velocities) part_->show_velocities();
+  part_ = std::make_unique<PicturePart>(*system_, *drawn_, settings_.layers, settings_.velocities);
 }
 
 void ResultFiles::restore_counts(const Snapshot& saved) {

@@ -22,7 +22,7 @@ constexpr std::uint64_t no_room = std::numeric_limits<std::uint64_t>::max();
 
 void SharedStates::record(const PicturePart& part, const output::Picture& picture,
                           output::Recorder* recorder) {
-  const output::StateTables tables = part.tables();
+  const output::StateTables& tables = part.tables();
   on_root(comm_, [&] { recorder->begin(picture); });
   for (std::size_t t = 0; t < tables.tables().size(); ++t) {
     record_table(t, tables, part, picture, recorder);
@@ -39,7 +39,7 @@ void SharedStates::record_table(std::size_t t, const output::StateTables& tables
   std::vector<double> numbers = tables.values(t, part.meshes(), picture.structures);
   std::uint64_t place = no_room;
   if (comm_.size() > 1 && rows * width >= smallest_shared) {
-    if (recorder != nullptr) place = recorder->room_of(t).value_or(no_room);
+    on_root(comm_, [&] { place = recorder->room_of(t).value_or(no_room); });
     comm_.broadcast(std::span(&place, 1));
   }
   if (place == no_room) {
