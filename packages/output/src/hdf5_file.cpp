@@ -205,8 +205,12 @@ void Hdf5File::write(hid_t where, const std::string& name, std::span<const int> 
 void Hdf5File::write(hid_t where, const std::string& name, const std::string& text) {
   const Handle type = text_type();
   const Handle dataset = make_dataset(where, name, type.id(), {});
+  // A text is converted: by default in buffers of 1 MB, which are filled with zeros first.
+  const Handle transfer(check(H5Pcreate(H5P_DATASET_XFER), "write text"), H5Pclose);
+  constexpr std::size_t enough = 1024;
+  check(H5Pset_buffer(transfer.id(), enough, nullptr, nullptr), "write text");
   const char* const data = text.c_str();
-  check(H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, &data),
+  check(H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, transfer.id(), &data),
         "write dataset " + name);
 }
 
