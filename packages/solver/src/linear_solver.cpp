@@ -27,8 +27,8 @@ class NothingToSolve final : public LinearSolver {
 };
 
 // An estimate [B per entry of the matrix] of the grids, the factors of the coarsest and the vectors
-// of conjugate gradients; plates of 200 x 200 and 400 x 400 elements took 24 and 23, and the soft
-// modes of elements that are much longer than thick 2 more.
+// of conjugate gradients: plates of 200 x 200 to 700 x 700 elements took 16 to 20, those with
+// elements longer than thick 28 to 32, or 20 where memory is short and they have three grids.
 constexpr double iterative_need = 22.0;
 
 ChosenSolver choose_iterative(const std::string& why,

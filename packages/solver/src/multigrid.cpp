@@ -3,6 +3,7 @@
 #include <culm/math/types.hpp>
 
 #include "coarse_matrix.hpp"
+#include "ordering.hpp"
 #include "prolongation.hpp"
 
 #include <algorithm>
@@ -16,10 +17,11 @@ using assembly::tpetra;
 using assembly::Vector;
 
 // The coarsest grid is factored; below this size that costs less than cycles over more grids.
-constexpr long long largest_coarsest = 200000;
-// Bending of aggregates helps where elements are much longer than thick, and makes the coarse grid
-// larger: only one that is still factored has it.
-constexpr double motions_with_bending = 9.0;
+constexpr double always_factored = 200000.0;
+// A further grid takes more iterations, up to four times as many for a thin shell. So a larger one
+// is factored as well while that is no more than some dozen of iterations: operations for each
+// entry of the finest matrix, which are dense ones, some ten times as fast.
+constexpr double operations_per_entry = 1e4;
 // A grid that is not much coarser than the one before is not worth its cost.
 constexpr double least_coarsening = 0.7;
 
@@ -45,6 +47,20 @@ std::vector<bool> with_neighbours(const std::vector<bool>& special, const GridLe
   return carried;
 }
 
+double rows_of(const assembly::CrsMatrix& matrix) {
+  return static_cast<double>(matrix.getGlobalNumRows());
+}
+
+// Collective.
+bool is_worth_factors(const assembly::CrsMatrix& matrix, const assembly::CrsMatrix& finest,
+                      double memory, const parallel::Comm& comm) {
+  if (rows_of(matrix) <= always_factored) return true;
+  const Fill fill = order_rows(matrix, comm).fill;
+  return sizeof(double) * fill.entries <= memory &&
+         fill.operations <=
+             operations_per_entry * static_cast<double>(finest.getGlobalNumEntries());
+}
+
 }  // namespace
 
 struct Multigrid::Level {
@@ -64,22 +80,22 @@ struct Multigrid::Level {
 };
 
 Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
-                     assembly::NodeMotions nodes, const parallel::Comm& comm) {
+                     assembly::NodeMotions nodes, double memory, const parallel::Comm& comm) {
   coarsest_matrix_ = matrix;
   Surface surface{std::move(nodes.places), std::move(nodes.normals)};
-  while (levels_.empty() ||
-         static_cast<long long>(coarsest_matrix_->getGlobalNumRows()) > largest_coarsest) {
+  while (levels_.empty() || !is_worth_factors(*coarsest_matrix_, *matrix, memory, comm)) {
     auto level = std::make_unique<Level>(coarsest_matrix_, nodes.widths, nodes.rigid, comm);
     const std::vector<bool> special = find_special(level->grid, level->smoother);
     const bool all_move = std::ranges::find(special, true) == special.end();
     may_be_definite_ = may_be_definite_ && comm.max(all_move ? 0 : 1) == 0;
     const std::vector<bool> carried = with_neighbours(special, level->grid);
     level->smoother.add_modes(carried, comm);
+    // Many nodes bend without shear where few do; else that only makes the next grid larger.
+    if (!level->smoother.has_modes()) surface = {};
     const Aggregates aggregates = aggregate(level->grid, carried);
-    if (motions_with_bending * comm.sum(aggregates.count) > largest_coarsest) surface = {};
     Prolongation coarse = join(level->grid, aggregates, carried, surface, comm);
-    const auto rows = static_cast<double>(coarsest_matrix_->getGlobalNumRows());
-    const bool pays = static_cast<double>(coarse.begin.back()) < least_coarsening * rows;
+    const bool pays =
+        static_cast<double>(coarse.begin.back()) < least_coarsening * rows_of(*coarsest_matrix_);
     if (!levels_.empty() && !pays) break;
     const NodeBlocks smoothed = smooth(coarse.rows, level->grid, level->smoother, comm);
     coarsest_matrix_ = make_coarse_matrix(level->grid, smoothed, coarse.widths, coarse.begin, comm);

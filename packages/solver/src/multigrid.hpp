@@ -16,9 +16,10 @@ namespace culm::solver {
 /// Algebraic multigrid by smoothed aggregation, 1996
 class Multigrid {
  public:
-  /// Collective, as all functions.
+  /// @param memory  what the factors of the coarsest matrix may take [B], on all ranks together,
+  /// where a further grid would do as well. Collective, as all functions.
   Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix, assembly::NodeMotions nodes,
-            const parallel::Comm& comm);
+            double memory, const parallel::Comm& comm);
   ~Multigrid();
 
   /// Whether the coarsest matrix has an inverse.

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace culm::solver {
 namespace {
@@ -140,7 +141,8 @@ TEST(Iterative, CountsHardlyGrowWithTheMesh) {
   const auto iterations = [](int n) {
     const Sheet sheet(n);
     Multigrid multigrid(assembly::tpetra(std::as_const(*sheet.matrix)),
-                        sheet.system->node_motions(), sheet.comm);
+                        sheet.system->node_motions(), std::numeric_limits<double>::infinity(),
+                        sheet.comm);
     const Vector b = sheet.load();
     Vector x(b.rows());
     const KrylovEnd end = conjugate_gradients(multigrid, b, x, {1e-8, 200});

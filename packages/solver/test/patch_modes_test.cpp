@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace culm::solver {
@@ -153,7 +154,8 @@ TEST(PatchModes, LeaveOutWhatIsCarried) {
 
 TEST(PatchModes, KeepIterationsFewWithoutShear) {
   const Plate plate(24, 1e-3, parallel::Comm());
-  Multigrid multigrid(plate.matrix, plate.motions, plate.comm);
+  Multigrid multigrid(plate.matrix, plate.motions, std::numeric_limits<double>::infinity(),
+                      plate.comm);
   const Vector b = plate.vector(1.0);
   Vector x(b.rows());
   const KrylovEnd end = conjugate_gradients(multigrid, b, x, {1e-8, 200});
