@@ -19,6 +19,7 @@ class BlockSmoother {
 
   /// Takes the soft modes of patches, too. @param carried  as for PatchModes. Collective.
   void add_modes(const std::vector<bool>& carried, const parallel::Comm& comm);
+  /// Whether there are any, on any rank.
   bool has_modes() const { return modes_.has_value(); }
   /// Takes new values of the matrix for the blocks; modes and eigenvalues stay.
   void refresh();

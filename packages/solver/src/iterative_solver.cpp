@@ -113,6 +113,7 @@ class IterativeSolver final : public LinearSolver {
                                    static_cast<double>(iterations_) / solutions_, most_);
     for (long long unknowns : sizes_) text += fmt::format(" {}", unknowns);
     text += fmt::format(" unknowns, made {} times", built_);
+    if (lacks_memory_) text += "; with more memory it would take fewer grids and iterations";
     if (failed_ > 0) {
       text += fmt::format("; {} of {} solutions by MUMPS, where the iteration did not converge",
                           failed_, solutions_);
@@ -168,6 +169,7 @@ class IterativeSolver final : public LinearSolver {
                           grids_need * static_cast<double>(matrix_->getGlobalNumEntries());
     multigrid_ = std::make_unique<Multigrid>(matrix_, model_.motions(), memory, comm_);
     sizes_ = multigrid_->sizes();
+    lacks_memory_ = multigrid_->lacks_memory();
     built_sum_ = sum_of_diagonal();
     built_for_ = fingerprint();
     is_stale_ = false;
@@ -260,6 +262,7 @@ class IterativeSolver final : public LinearSolver {
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<LinearSolver> direct_;  // where the iteration did not converge in this step
   std::vector<long long> sizes_;          // of the grids
+  bool lacks_memory_ = false;             // for fewer of them
   bool is_symmetric_ = false;
   bool is_stale_ = true;  // the grids are to be made anew
   bool is_new_ = false;   // they belong to the present values

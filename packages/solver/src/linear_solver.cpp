@@ -36,7 +36,10 @@ ChosenSolver choose_iterative(const std::string& why,
                               const parallel::Comm& comm, const ModelBehind& model) {
   return {make_iterative(matrix, model, comm),
           "Iterative, " + why + "; it knows no determinants, so bifurcations are not looked for",
-          true, iterative_need * static_cast<double>(matrix->total_entries()), true};
+          true,
+          {},
+          iterative_need * static_cast<double>(matrix->total_entries()),
+          true};
 }
 
 // From here on ranks gain by factoring together. Below, one rank factors all, which hardly takes
@@ -93,6 +96,7 @@ ChosenSolver choose(const std::string& name, const std::shared_ptr<const assembl
   }
   const bool is_wide = fill.front() > widest_slender_front;
   ChosenSolver chosen;
+  chosen.fill = fill;
   chosen.solver =
       is_wide ? make_wide(matrix, std::move(ordering), comm) : make_slender(matrix, comm);
   chosen.reason = fmt::format(

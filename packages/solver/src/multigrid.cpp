@@ -3,7 +3,6 @@
 #include <culm/math/types.hpp>
 
 #include "coarse_matrix.hpp"
-#include "ordering.hpp"
 #include "prolongation.hpp"
 
 #include <algorithm>
@@ -16,11 +15,12 @@ namespace {
 using assembly::tpetra;
 using assembly::Vector;
 
-// The coarsest grid is factored; below this size that costs less than cycles over more grids.
+// The coarsest grid is factored. Below so many unknowns that costs less than cycles over more
+// grids.
 constexpr double always_factored = 200000.0;
 // A further grid takes more iterations, up to four times as many for a thin shell. So a larger one
-// is factored as well while that is no more than some dozen of iterations: operations for each
-// entry of the finest matrix, which are dense ones, some ten times as fast.
+// is factored as well, while that costs no more than some dozen iterations: so many operations, on
+// dense blocks and ten times as fast as others, for each entry of the finest matrix.
 constexpr double operations_per_entry = 1e4;
 // A grid that is not much coarser than the one before is not worth its cost.
 constexpr double least_coarsening = 0.7;
@@ -51,16 +51,6 @@ double rows_of(const assembly::CrsMatrix& matrix) {
   return static_cast<double>(matrix.getGlobalNumRows());
 }
 
-// Collective.
-bool is_worth_factors(const assembly::CrsMatrix& matrix, const assembly::CrsMatrix& finest,
-                      double memory, const parallel::Comm& comm) {
-  if (rows_of(matrix) <= always_factored) return true;
-  const Fill fill = order_rows(matrix, comm).fill;
-  return sizeof(double) * fill.entries <= memory &&
-         fill.operations <=
-             operations_per_entry * static_cast<double>(finest.getGlobalNumEntries());
-}
-
 }  // namespace
 
 struct Multigrid::Level {
@@ -83,7 +73,7 @@ Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
                      assembly::NodeMotions nodes, double memory, const parallel::Comm& comm) {
   coarsest_matrix_ = matrix;
   Surface surface{std::move(nodes.places), std::move(nodes.normals)};
-  while (levels_.empty() || !is_worth_factors(*coarsest_matrix_, *matrix, memory, comm)) {
+  while (levels_.empty() || !is_worth_factors(memory, comm)) {
     auto level = std::make_unique<Level>(coarsest_matrix_, nodes.widths, nodes.rigid, comm);
     const std::vector<bool> special = find_special(level->grid, level->smoother);
     const bool all_move = std::ranges::find(special, true) == special.end();
@@ -108,8 +98,20 @@ Multigrid::Multigrid(const Teuchos::RCP<const assembly::CrsMatrix>& matrix,
     nodes = {std::move(coarse.widths), std::move(coarse.rigid), {}, {}};
     surface = {};
   }
-  coarsest_ = choose_linear_solver("Automatic", assembly::matrix_of(coarsest_matrix_), comm).solver;
   is_regular_ = coarsest_->factor();
+}
+
+// Leaves the solver of the coarsest matrix, by whose order factors are predicted.
+bool Multigrid::is_worth_factors(double memory, const parallel::Comm& comm) {
+  ChosenSolver chosen =
+      choose_linear_solver("Automatic", assembly::matrix_of(coarsest_matrix_), comm);
+  coarsest_ = std::move(chosen.solver);
+  if (rows_of(*coarsest_matrix_) <= always_factored) return true;
+  const auto entries = static_cast<double>(levels_.front()->grid.matrix()->getGlobalNumEntries());
+  if (chosen.fill.operations > operations_per_entry * entries) return false;
+  const bool fits = sizeof(double) * chosen.fill.entries <= memory;
+  lacks_memory_ = lacks_memory_ || !fits;
+  return fits;
 }
 
 Multigrid::~Multigrid() = default;

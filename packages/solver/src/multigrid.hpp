@@ -34,12 +34,15 @@ class Multigrid {
   void multiply(const assembly::Vector& x, assembly::Vector& y) const;
   /// The direction in which the coarsest matrix is weakest, brought to the finest grid.
   void weakest_direction(assembly::Vector& v);
+  /// Whether more memory would have saved a grid.
+  bool lacks_memory() const { return lacks_memory_; }
   /// Unknowns of the grids, the finest first.
   std::vector<long long> sizes() const;
 
  private:
   struct Level;
 
+  bool is_worth_factors(double memory, const parallel::Comm& comm);
   void cycle(std::size_t level, const assembly::Vector& b, assembly::Vector& x);
   void prolong(std::size_t level, const assembly::Vector& coarse, assembly::Vector& x) const;
 
@@ -47,6 +50,7 @@ class Multigrid {
   std::unique_ptr<LinearSolver> coarsest_;
   Teuchos::RCP<const assembly::CrsMatrix> coarsest_matrix_;
   bool is_regular_ = false;
+  bool lacks_memory_ = false;
   bool may_be_definite_ = true;
 };
 

@@ -3,6 +3,7 @@
 
 #include <culm/assembly/matrix.hpp>
 #include <culm/assembly/node_motions.hpp>
+#include <culm/solver/fill.hpp>
 
 #include <functional>
 #include <limits>
@@ -11,10 +12,6 @@
 #include <span>
 #include <string>
 #include <vector>
-
-namespace culm::parallel {
-class Comm;
-}
 
 namespace culm::solver {
 
@@ -114,6 +111,7 @@ struct ChosenSolver {
   std::unique_ptr<LinearSolver> solver;
   std::string reason;
   bool is_iterative = false;  ///< it asks for the motions of the model behind
+  Fill fill = {};             ///< predicted, where Automatic took a direct one by that
   double bytes = 0.0;         ///< predicted need of an iterative solver, on all ranks together [B]
   bool is_shared = false;     ///< whether all ranks hold parts of what it needs, or rank 0 all
 };
