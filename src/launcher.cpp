@@ -3,7 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/base/read_file.hpp>
 #include <culm/base/stop_signal.hpp>
-#include <culm/parallel/single_process.hpp>
+#include <culm/parallel/mpi_session.hpp>
 
 #include <fcntl.h>
 #include <sys/prctl.h>

@@ -22,8 +22,8 @@ MPI = TPETRA | {"parallel", "output", "analysis", "simulation"}
 EXTERNAL = [
     (r"mpi\.h$", MPI, True),
     (r"Teuchos_.*", TEUCHOS, False),
-    (r"Tpetra_Core\.hpp$", TPETRA | {"simulation"}, False),
-    (r"(Tpetra_(?!Core)|Kokkos|Thyra|Xpetra).*", TPETRA, False),
+    (r"Kokkos_Core\.hpp$", TPETRA | {"simulation"}, False),
+    (r"(Tpetra|Kokkos(?!_Core)|Thyra|Xpetra).*", TPETRA, False),
     (r"(NOX|LOCA|Amesos2|Anasazi|Belos|Ifpack2|MueLu|Stratimikos)[_.A-Z].*", {"solver"}, False),
     (r"Spectra/.*", {"solver"}, False),
     (r"[sdcz]mumps_c\.h$", {"solver"}, False),

@@ -3,6 +3,7 @@
 #include "culm.h"
 
 #include <culm/base/error.hpp>
+#include <culm/parallel/mpi_session.hpp>
 #include <culm/simulation/session.hpp>
 #include <culm/simulation/simulation.hpp>
 
@@ -22,6 +23,7 @@ namespace {
 
 using culm::UsageError;
 using culm::analysis::Stepper;
+using culm::parallel::Comm;
 using culm::simulation::Simulation;
 
 // MPI and Trilinos, from the first culm_open to culm_end or the end of the program.
@@ -114,10 +116,9 @@ int guarded(std::string& error, Body body) noexcept {
 }  // namespace
 
 struct culm_simulation {
-  culm_simulation(const char* deck, std::vector<std::string> overrides, MPI_Comm comm)
+  culm_simulation(const char* deck, std::vector<std::string> overrides, const Comm& comm)
       : simulation(Simulation::open(deck, std::move(overrides),
-                                    culm::Log(said, culm::LogLevel::info),
-                                    culm::parallel::Comm(comm))) {}
+                                    culm::Log(said, culm::LogLevel::info), comm)) {}
 
   Stepper& stepper() {
     Stepper* const present = simulation.stepper();
@@ -199,7 +200,8 @@ int culm_open(int api, int comm, const char* deck, const char* const* overrides,
     }
     require(deck != nullptr, "there is no deck: it is NULL");
     begin_session();
-    const MPI_Comm group = comm == CULM_WORLD ? MPI_COMM_WORLD : MPI_Comm_f2c(comm);
+    if (comm != CULM_WORLD) culm::parallel::start_mpi();
+    const Comm group = comm == CULM_WORLD ? Comm() : Comm(MPI_Comm_f2c(comm));
     *simulation = std::make_unique<culm_simulation>(deck, texts(overrides, count), group).release();
   });
 }

@@ -59,7 +59,8 @@ CULM_API const char* culm_error(const culm_simulation* simulation);
 /* What culm said since the last call of this: notes and warnings. Valid until the next call. */
 CULM_API const char* culm_messages(culm_simulation* simulation);
 
-/* Builds the model of a deck. Starts MPI and Trilinos where the program has not.
+/* Builds the model of a deck. Starts Trilinos, and MPI where the program has not and a launcher or
+ * `comm` ask for it.
  *   api        CULM_API_VERSION
  *   comm       MPI_Comm_c2f of a communicator, or CULM_WORLD
  *   overrides  such as "Structures/beam/Curve/Elements=32"; `count` of them, NULL if none */

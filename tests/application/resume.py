@@ -265,7 +265,8 @@ def signals_stop_within_a_step(program, folder, options):
 
 
 def signals_that_come_early_are_heard(program, folder, options):
-    """While MPI starts, which has threads of its own by then, as with a signal that a batch system sends to all."""
+    """While the program starts, and with several processes MPI, which has threads of its own by then: as with a signal that a
+    batch system sends to all."""
     process = program.start("run", *LONG, "--output", "early")
 
     def threads(pid):
@@ -273,15 +274,20 @@ def signals_that_come_early_are_heard(program, folder, options):
             return len(list(pathlib.Path(f"/proc/{pid}/task").iterdir()))
         return 0
 
+    def heeds_signal(pid):
+        caught = re.search(r"SigCgt:\s*(\w+)", pathlib.Path(f"/proc/{pid}/status").read_text()).group(1)
+        return int(caught, 16) >> (signal.SIGUSR1 - 1) & 1 == 1
+
     def culm():
         return ([process.pid] + children(process.pid))[-1]
 
     def is_starting():
         with contextlib.suppress(OSError):
-            return "culm" in os.readlink(f"/proc/{culm()}/exe") and threads(culm()) > 1
+            is_culm = "culm" in os.readlink(f"/proc/{culm()}/exe")
+            return is_culm and (heeds_signal(culm()) if options.ranks == 1 else threads(culm()) > 1)
         return False
 
-    wait_for(process, is_starting, "no threads")
+    wait_for(process, is_starting, "no start")
     os.kill(culm(), signal.SIGUSR1)
     code, _, err = program.finish(process)
     demand(code == 7, f"exit code {code}: {err}")

@@ -1,6 +1,6 @@
 // Entry point of unit tests that may use MPI, on one process or, under mpiexec, on several.
 
-#include <culm/parallel/single_process.hpp>
+#include <culm/parallel/mpi_session.hpp>
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -11,8 +11,8 @@
 #endif
 
 int main(int argc, char** argv) {
-  culm::parallel::expect_single_process();
-  MPI_Init(&argc, &argv);
+  const culm::parallel::MpiSession session;
+  culm::parallel::start_mpi();
   ::testing::InitGoogleTest(&argc, argv);
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -30,6 +30,5 @@ int main(int argc, char** argv) {
   }
   int failed_anywhere = 0;
   MPI_Allreduce(&failed, &failed_anywhere, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
-  MPI_Finalize();
   return failed_anywhere;
 }

@@ -1,6 +1,7 @@
 #include <culm/assembly/tpetra.hpp>
 
 #include <Teuchos_DefaultMpiComm.hpp>
+#include <Teuchos_DefaultSerialComm.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -9,16 +10,21 @@ namespace culm::assembly {
 namespace {
 
 Teuchos::RCP<const Map> make_map(std::span<const long long> mine, const parallel::Comm& comm) {
-  const auto mpi = Teuchos::rcp(new Teuchos::MpiComm<int>(comm.handle()));
+  const auto ranks = ranks_of(comm);
   // contiguous: what KLU2 wants
-  if (comm.size() == 1) return Teuchos::rcp(new Map(mine.size(), 0, mpi));
+  if (comm.size() == 1) return Teuchos::rcp(new Map(mine.size(), 0, ranks));
   const auto sum = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
   const Teuchos::ArrayView<const GlobalIndex> numbers(
       mine.data(), static_cast<Teuchos::ArrayView<const GlobalIndex>::size_type>(mine.size()));
-  return Teuchos::rcp(new Map(sum, numbers, 0, mpi));
+  return Teuchos::rcp(new Map(sum, numbers, 0, ranks));
 }
 
 }  // namespace
+
+Teuchos::RCP<const Teuchos::Comm<int>> ranks_of(const parallel::Comm& comm) {
+  if (comm.size() == 1) return Teuchos::rcp(new Teuchos::SerialComm<int>());
+  return Teuchos::rcp(new Teuchos::MpiComm<int>(comm.handle()));
+}
 
 Rows::Rows(std::span<const long long> mine, const parallel::Comm& comm)
     : Rows(std::make_shared<const Stored>(make_map(mine, comm))) {}

@@ -1,4 +1,5 @@
 #include <culm/parallel/comm.hpp>
+#include <culm/parallel/mpi_session.hpp>
 #include <culm/parallel/patience.hpp>
 
 #include <algorithm>
@@ -10,6 +11,7 @@ namespace {
 template <class T>
 std::vector<T> gather_pieces(MPI_Comm comm, int ranks, std::span<const T> piece,
                              MPI_Datatype type) {
+  if (ranks == 1) return {piece.begin(), piece.end()};
   const int count = static_cast<int>(piece.size());
   std::vector<int> counts(static_cast<std::size_t>(ranks));
   MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm);
@@ -25,9 +27,19 @@ std::vector<T> gather_pieces(MPI_Comm comm, int ranks, std::span<const T> piece,
 
 }  // namespace
 
+Comm::Comm() {
+  if (is_mpi_running()) *this = Comm(MPI_COMM_WORLD);
+}
+
 Comm::Comm(MPI_Comm comm) : comm_(comm) {
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
+}
+
+MPI_Comm Comm::handle() const {
+  if (comm_ != MPI_COMM_NULL) return comm_;
+  start_mpi();
+  return MPI_COMM_SELF;
 }
 
 int Comm::most_on_a_machine() const {
@@ -46,6 +58,7 @@ double Comm::max(double value) const {
 }
 
 int Comm::max(int value) const {
+  if (size_ == 1) return value;
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_INT, MPI_MAX, comm_);
   return value;
 }
@@ -57,6 +70,7 @@ void Comm::max(std::span<double> values) const {
 }
 
 double Comm::sum(double value) const {
+  if (size_ == 1) return value;
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, comm_);
   return value;
 }
@@ -68,11 +82,13 @@ void Comm::sum(std::span<double> values) const {
 }
 
 std::uint64_t Comm::wrapping_sum(std::uint64_t value) const {
+  if (size_ == 1) return value;
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_UINT64_T, MPI_SUM, comm_);
   return value;
 }
 
 void Comm::await_root() const {
+  if (size_ == 1) return;
   char word = 0;
   MPI_Request request = MPI_REQUEST_NULL;
   MPI_Ibcast(&word, 1, MPI_CHAR, 0, comm_, &request);
@@ -85,6 +101,7 @@ void Comm::await_root() const {
 }
 
 std::string Comm::broadcast(std::string text) const {
+  if (size_ == 1) return text;
   auto length = static_cast<unsigned long long>(text.size());
   MPI_Bcast(&length, 1, MPI_UNSIGNED_LONG_LONG, 0, comm_);
   text.resize(length);
@@ -121,6 +138,10 @@ std::vector<double> Comm::gather(std::span<const double> piece) const {
 
 void Comm::gather(std::span<const double> piece,
                   const std::function<void(int, std::span<const double>)>& take) const {
+  if (size_ == 1) {
+    take(0, piece);
+    return;
+  }
   const int mine = static_cast<int>(piece.size());
   const std::vector<int> counts = gather(std::span<const int>(&mine, 1));
   if (!is_root()) {
@@ -137,7 +158,8 @@ void Comm::gather(std::span<const double> piece,
   }
 }
 
-Funnel::Funnel(const Comm& comm, int count) : comm_(comm.handle()), count_(count) {
+Funnel::Funnel(const Comm& comm, int count)
+    : comm_(comm.size() > 1 ? comm.handle() : MPI_COMM_NULL), count_(count) {
   counts_ = comm.gather(std::span<const int>(&count, 1));
   starts_.resize(counts_.size());
   std::exclusive_scan(counts_.begin(), counts_.end(), starts_.begin(), 0);
@@ -145,11 +167,19 @@ Funnel::Funnel(const Comm& comm, int count) : comm_(comm.handle()), count_(count
 }
 
 void Funnel::gather(std::span<const double> piece, std::span<double> whole) const {
+  if (comm_ == MPI_COMM_NULL) {
+    std::copy_n(piece.begin(), count_, whole.begin());
+    return;
+  }
   MPI_Gatherv(piece.data(), count_, MPI_DOUBLE, whole.data(), counts_.data(), starts_.data(),
               MPI_DOUBLE, 0, comm_);
 }
 
 void Funnel::scatter(std::span<const double> whole, std::span<double> piece) const {
+  if (comm_ == MPI_COMM_NULL) {
+    std::copy_n(whole.begin(), count_, piece.begin());
+    return;
+  }
   MPI_Scatterv(whole.data(), counts_.data(), starts_.data(), MPI_DOUBLE, piece.data(), count_,
                MPI_DOUBLE, 0, comm_);
 }

@@ -6,12 +6,12 @@
 namespace culm::parallel {
 
 Comm first_ranks(int count) {
-  int size = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  if (count < 1 || count > size) {
+  const Comm launched;
+  if (count < 1 || count > launched.size()) {
     throw UsageError(std::to_string(count) + " processes are to work together, and " +
-                     std::to_string(size) + " were started");
+                     std::to_string(launched.size()) + " were started");
   }
+  if (count == launched.size()) return launched;
   MPI_Group all = MPI_GROUP_NULL, first = MPI_GROUP_NULL;
   MPI_Comm_group(MPI_COMM_WORLD, &all);
   int range[1][3] = {{0, count - 1, 1}};

@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/coupling/partner_error.hpp>
 #include <culm/coupling/remote_partner.hpp>
+#include <culm/parallel/comm.hpp>
 #include <culm/parallel/patience.hpp>
 #include <culm/simulation/stop_request.hpp>
 
@@ -21,13 +22,12 @@ namespace {
 class MpiChannel final : public coupling::Channel {
  public:
   explicit MpiChannel(int rank) : rank_(rank) {
-    int size = 0;
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
-    if (rank < size) return;
+    const parallel::Comm launched;
+    if (rank < launched.size()) return;
     throw UsageError(fmt::format(
         "the partner is rank {}, and {} processes were started; start both together: culm run DECK "
         "--with PARTNER, or mpiexec -n 1 culm run DECK --ranks 1 : -n 1 PARTNER",
-        rank, size));
+        rank, launched.size()));
   }
 
   void send(const std::string& frame) override {

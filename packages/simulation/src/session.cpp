@@ -1,7 +1,7 @@
-#include <culm/parallel/single_process.hpp>
+#include <culm/parallel/mpi_session.hpp>
 #include <culm/simulation/session.hpp>
 
-#include <Tpetra_Core.hpp>
+#include <Kokkos_Core.hpp>
 #include <malloc.h>
 
 #include <array>
@@ -10,18 +10,18 @@ namespace culm::simulation {
 
 struct Session::Scope {
   // Kokkos gets no arguments: it would add its own help to ours, and options nobody documents.
-  explicit Scope(char* program) : arguments{program, nullptr}, tpetra(&count, &values) {}
+  explicit Scope(char* program) : arguments{program, nullptr}, kokkos(count, values) {}
   int count = 1;
   std::array<char*, 2> arguments;
   char** values = arguments.data();
-  Tpetra::ScopeGuard tpetra;
+  parallel::MpiSession mpi;
+  Kokkos::ScopeGuard kokkos;
 };
 
 Session::Session(int& /*argc*/, char**& argv) {
   // keeps the factors of a direct solver from going back to the system after every iteration
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
-  parallel::expect_single_process();
   scope_ = std::make_unique<Scope>(argv[0]);
 }
 

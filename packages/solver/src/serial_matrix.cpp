@@ -1,6 +1,6 @@
 #include "serial_matrix.hpp"
 
-#include <Teuchos_DefaultMpiComm.hpp>
+#include <Teuchos_DefaultSerialComm.hpp>
 
 namespace culm::solver {
 namespace {
@@ -19,7 +19,7 @@ Teuchos::RCP<assembly::CrsMatrix> make_serial_matrix(std::span<const std::size_t
   using assembly::CrsGraph;
   using assembly::CrsMatrix;
   using assembly::Map;
-  const auto self = Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
+  const auto self = Teuchos::rcp(new Teuchos::SerialComm<int>());
   const auto rows = static_cast<Tpetra::global_size_t>(begin.size() - 1);
   const auto map = Teuchos::rcp(new Map(rows, 0, self));
   const auto graph = Teuchos::rcp(new CrsGraph(map, map, view(begin), view(columns)));

@@ -21,13 +21,13 @@ using assembly::Vector;
 // all of their nodes. Held at one side.
 struct Plate {
   Plate(int n, double bending, const parallel::Comm& on) : comm(on) {
-    const auto mpi = Teuchos::rcp(new Teuchos::MpiComm<int>(comm.handle()));
+    const auto ranks = assembly::ranks_of(comm);
     const int nodes = n * n;
     const int begin = nodes * comm.rank() / comm.size();
     const int end = nodes * (comm.rank() + 1) / comm.size();
     const auto all = static_cast<Tpetra::global_size_t>(3 * nodes);
     const auto map =
-        Teuchos::rcp(new Map(all, static_cast<std::size_t>(3 * (end - begin)), 0, mpi));
+        Teuchos::rcp(new Map(all, static_cast<std::size_t>(3 * (end - begin)), 0, ranks));
     matrix = Teuchos::rcp(new CrsMatrix(map, 27));
     const auto add = [&](int row, int column, double value) {
       const long long global = column;

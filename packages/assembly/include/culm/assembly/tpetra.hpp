@@ -36,6 +36,9 @@ struct Matrix::Stored {
   Rows rows, columns;
 };
 
+/// The ranks of a map; one alone does without MPI.
+Teuchos::RCP<const Teuchos::Comm<int>> ranks_of(const parallel::Comm& comm);
+
 inline const Teuchos::RCP<const Map>& tpetra(const Rows& rows) { return rows.stored().map; }
 inline TpetraVector& tpetra(Vector& vector) { return vector.stored().vector; }
 inline const TpetraVector& tpetra(const Vector& vector) { return vector.stored().vector; }

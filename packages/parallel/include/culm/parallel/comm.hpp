@@ -12,15 +12,19 @@
 namespace culm::parallel {
 
 /// A group of MPI ranks. Rank 0 is the root of all gathers and broadcasts. A value type: copies
-/// refer to the same group. MPI must be initialised by the program.
+/// refer to the same group. One rank alone does without MPI in all but handle().
 class Comm {
  public:
-  explicit Comm(MPI_Comm comm = MPI_COMM_WORLD);
+  /// All processes that were launched together; this one where MPI is not running, which a
+  /// launched process sees to (MpiSession).
+  Comm();
+  explicit Comm(MPI_Comm comm);
 
   int rank() const { return rank_; }
   int size() const { return size_; }
   bool is_root() const { return rank_ == 0; }
-  MPI_Comm handle() const { return comm_; }
+  /// Starts MPI, unless it is running.
+  MPI_Comm handle() const;
   /// How many share the memory of one machine: of all machines the most. Collective.
   int most_on_a_machine() const;
 
@@ -54,7 +58,7 @@ class Comm {
               const std::function<void(int, std::span<const double>)>& take) const;
 
  private:
-  MPI_Comm comm_;
+  MPI_Comm comm_ = MPI_COMM_NULL;  // null: this process, without MPI
   int rank_ = 0;
   int size_ = 1;
 };
@@ -75,7 +79,7 @@ class Funnel {
   void scatter(std::span<const double> whole, std::span<double> piece) const;
 
  private:
-  MPI_Comm comm_ = MPI_COMM_SELF;
+  MPI_Comm comm_ = MPI_COMM_NULL;  // of several
   int count_ = 0;
   int total_ = 0;
   std::vector<int> counts_;
