@@ -1,30 +1,51 @@
 #!/usr/bin/env python3
 """Speed and memory of a large slender model on several processes: the flexible pendulum. The time of a step is that
-of a long run less that of a short one; memory is the largest that a process ever had.
+of a long run less that of a short one; memory is the largest that a process ever had. More elements than a beam may have
+are those of several pendula.
 
 usage: ranks.py CULM [--elements N] [--ranks 1 2 4] [--steps 4 24] [--repeats 2] [--copies]
 """
 
 import argparse
+import copy
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import time
+import xml.etree.ElementTree
 
 INPUTS = pathlib.Path(__file__).resolve().parent.parent.parent / "inputs"
 STEP = 5e-3  # s, of the deck
+LONGEST = 100000  # elements of a beam
 # prints what getrusage knows when the program has ended
 WATCH = ("import os, resource, subprocess, sys; code = subprocess.call(sys.argv[1:], stdout=subprocess.DEVNULL); "
          "used = resource.getrusage(resource.RUSAGE_CHILDREN); "
          "print(f'used {used.ru_utime + used.ru_stime} {used.ru_maxrss}', flush=True); sys.exit(code)")
 
 
+def write_pendula(count, path):
+    """The deck with several beams, each with its support."""
+    tree = xml.etree.ElementTree.parse(INPUTS / "beam/pendulum.xml")
+    for kind, of in (("Structures", "beam"), ("Constraints", "pin")):
+        group = tree.find(f"ParameterList[@name='{kind}']")
+        for i in range(1, count):
+            other = copy.deepcopy(group.find(f"ParameterList[@name='{of}']"))
+            other.set("name", f"{of}{i}")
+            for node in other.findall("Parameter[@value='beam/first']"):
+                node.set("value", f"beam{i}/first")
+            group.append(other)
+    tree.write(path)
+
+
 def command(culm, folder, elements, steps):
-    return [sys.executable, "-c", WATCH, culm, "run", str(INPUTS / "beam/pendulum.xml"), "--quiet", "--output", folder, "--set",
-            f"Structures/beam/Curve/Elements={elements}", "--set", f"Analyses/motion/End Time={steps * STEP!r}", "--set",
-            "Output/Every=100000"]
+    beams = -(-elements // LONGEST)
+    deck = pathlib.Path(folder, "pendula.xml")
+    deck.parent.mkdir(exist_ok=True)
+    write_pendula(beams, deck)
+    return [sys.executable, "-c", WATCH, culm, "run", str(deck), "--quiet", "--output", f"{folder}/results", "--set",
+            f"N={elements // beams}", "--set", f"Analyses/motion/End Time={steps * STEP!r}", "--set", "Output/Every=100000"]
 
 
 def run(programs):

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <span>
 #include <type_traits>
@@ -91,6 +92,9 @@ inline bool factor_long_rows(double* D, int size, int columns, const double* bef
   return true;
 }
 
+/// How many numbers behind a panel are read with the last of its rows.
+constexpr int numbers_behind = 4 * pack_lanes;
+
 /// The same with rows of so many vectors. @param room for size of them
 template <int vectors>
 [[gnu::always_inline]] inline bool factor_rows(double* D, int size, int columns,
@@ -101,8 +105,8 @@ template <int vectors>
   // numbers of a row, also as those of its vectors
   const auto numbers = [&](int r) { return reinterpret_cast<double*>(row(r)); };
   for (int r = 0; r < size; ++r) {
-    for (int k = 0; k < vectors; ++k) row(r)[k] = Pack{};
-    std::copy_n(D + r * stride, stride, numbers(r));
+    // with what follows the row, which is not looked at
+    std::memcpy(row(r), D + r * stride, sizeof(Pack) * vectors);
   }
   // whole rows are subtracted, so that what stands left of the pivots is not kept there but in D
   const auto subtract = [&](double factor, int from, int of) {
@@ -127,10 +131,23 @@ template <int vectors>
       subtract(factor, c, r);
     }
   }
-  for (int r = size - 1; r >= 0; --r) {
-    for (int c = r + 1; c < size; ++c) subtract(D[r * stride + c], c, r);
-    for (int k = 0; k < vectors; ++k) row(r)[k] *= D[r * stride + r];
-    std::copy_n(numbers(r) + size, columns, D + r * stride + size);
+  // of rows that are longer than a vector, the first one may hold nothing of U
+  const auto substitute = [&](auto first) __attribute__((always_inline)) {
+    for (int r = size - 1; r >= 0; --r) {
+      Pack solved[vectors];
+      for (int k = first; k < vectors; ++k) solved[k] = row(r)[k];
+      for (int c = r + 1; c < size; ++c) {
+        const double factor = D[r * stride + c];
+        for (int k = first; k < vectors; ++k) solved[k] -= factor * row(c)[k];
+      }
+      for (int k = first; k < vectors; ++k) row(r)[k] = solved[k] * D[r * stride + r];
+      std::copy_n(numbers(r) + size, columns, D + r * stride + size);
+    }
+  };
+  if (vectors > 1 && size >= pack_lanes) {
+    substitute(Fixed<1>());
+  } else {
+    substitute(Fixed<0>());
   }
   return true;
 }

@@ -53,6 +53,29 @@ auto with_sizes(const BlockPlan::Panel& panel, const Visit& visit) {
   return visit(node, panel.width);
 }
 
+// Columns of one or two nodes and of joints.
+template <class Visit>
+[[gnu::always_inline]] inline void with_few(int columns, const Visit& visit) {
+  switch (columns) {
+    case 1:
+      return visit(Fixed<1>());
+    case 2:
+      return visit(Fixed<2>());
+    case 3:
+      return visit(Fixed<3>());
+    case 4:
+      return visit(Fixed<4>());
+    case 5:
+      return visit(Fixed<5>());
+    case node:
+      return visit(node);
+    case 2 * node:
+      return visit(Fixed<2 * node>());
+    default:
+      return visit(columns);
+  }
+}
+
 }  // namespace
 
 BlockLu::BlockLu(const BlockRows& rows, int kept)
@@ -130,7 +153,7 @@ void BlockLu::plan() {
   reads_backward_ = plan_.num_values > cached_values &&
                     plan_.copies.front().source > plan_.copies[plan_.copies.size() / 2].source;
   const std::size_t rows = plan_.unknown.size();
-  values_.assign(plan_.num_values, 0.0);
+  values_.assign(plan_.num_values + numbers_behind, 0.0);
   before_.assign(rows, 0.0);
   exchanged_.assign(rows, 0);
   x_.assign(rows, 0.0);
@@ -193,15 +216,7 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
   }
   for (std::size_t k = done.copies; k < panel.copies; ++k) {
     const BlockPlan::Copy& c = plan_.copies[k];
-    if (c.columns == node) {
-      copy_rows(c, node);
-    } else if (c.columns == 2 * node) {
-      copy_rows(c, Fixed<2 * node>());
-    } else if (c.columns == ball) {
-      copy_rows(c, ball);
-    } else {
-      copy_rows(c, c.columns);
-    }
+    with_few(c.columns, [&](auto columns) { copy_rows(c, columns); });
   }
 }
 

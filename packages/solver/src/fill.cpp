@@ -1,5 +1,9 @@
+#include <culm/assembly/tpetra.hpp>
 #include <culm/math/types.hpp>
 #include <culm/solver/fill.hpp>
+
+#include <algorithm>
+#include <array>
 
 namespace culm::solver {
 namespace {
@@ -27,19 +31,49 @@ std::vector<double> rows_below(const parallel::Graph& graph, const std::vector<i
   return below;
 }
 
+// @param below rows of L under the diagonal
+void add_column(double below, Fill& fill) {
+  fill.entries += 2.0 * below + 1.0;
+  fill.operations += below + 2.0 * below * below;
+}
+
 }  // namespace
 
 Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place) {
   const std::vector<double> below = rows_below(graph, place);
   Fill fill;
   for (std::size_t v = 0; v < below.size(); ++v) {
-    for (int i = 0; i < graph.weights[v]; ++i) {
-      const double m = below[v] + i;  // rows under one pivot
-      fill.entries += 2.0 * m + 1.0;
-      fill.operations += m + 2.0 * m * m;
-    }
+    for (int i = 0; i < graph.weights[v]; ++i) add_column(below[v] + i, fill);
   }
   return fill;
+}
+
+Fill bound_fill(const assembly::Matrix& matrix, const parallel::Comm& comm) {
+  const auto graph = assembly::tpetra(matrix)->getLocalMatrixHost().graph;
+  const int rows = static_cast<int>(graph.numRows());
+  std::vector<int> change(index(rows), 0);  // of the rows of L, from column to column
+  double beyond = 0.0;
+  for (int row = 0; row < rows; ++row) {
+    int first = row;
+    bool reaches_others = false;
+    for (auto k = graph.row_map(row); k < graph.row_map(row + 1); ++k) {
+      const int column = graph.entries(k);
+      reaches_others |= column >= rows;
+      first = std::min(first, column);
+    }
+    ++change[index(first)];
+    --change[index(row)];
+    if (reaches_others) beyond += 1.0;
+  }
+  double below = comm.sum(beyond);
+  Fill fill;
+  for (const int more : change) {
+    below += more;
+    add_column(below, fill);
+  }
+  std::array<double, 2> sums = {fill.entries, fill.operations};
+  comm.sum(sums);
+  return {sums[0], sums[1]};
 }
 
 }  // namespace culm::solver

@@ -66,6 +66,17 @@ std::unique_ptr<LinearSolver> make_wide(const std::shared_ptr<const assembly::Ma
   return make_one_rank_solver(stored, alone, comm);
 }
 
+double bytes_of(const Fill& fill) { return sizeof(double) * fill.entries; }
+
+bool is_wide(const Fill& fill) { return fill.front() > widest_slender_front; }
+
+// Nested dissection is done by one rank, which all others wait for: a million beams took it 3.5 s.
+// Where large matrices are slender as they stand, there is no need of it.
+bool is_slender_as_it_stands(const Fill& bound, const parallel::Comm& comm,
+                             const ModelBehind& model) {
+  return !is_wide(bound) && bytes_of(bound) <= model.memory * comm.size();
+}
+
 using MakeSolver = std::unique_ptr<LinearSolver>(
     const std::shared_ptr<const assembly::Matrix>& matrix, const parallel::Comm& comm);
 
@@ -85,20 +96,30 @@ ChosenSolver choose(const std::string& name, const std::shared_ptr<const assembl
   if (name == "Iterative" && model.motions) {
     return choose_iterative("as the deck says", matrix, comm, model);
   }
+  if (matrix->rows().total() >= fewest_shared_unknowns) {
+    const Fill bound = bound_fill(*matrix, comm);
+    if (is_slender_as_it_stands(bound, comm, model)) {
+      ChosenSolver chosen{make_slender(matrix, comm), {}};
+      chosen.fill = bound;
+      chosen.reason =
+          fmt::format("{}, automatic: fronts of at most {:.0f} unknowns, MUMPS from {:.0f}",
+                      chosen.solver->name(), bound.front(), widest_slender_front);
+      return chosen;
+    }
+  }
   Ordering ordering = order_rows(*assembly::tpetra(*matrix), comm);
   const Fill fill = ordering.fill;
-  const double bytes = sizeof(double) * fill.entries;
+  const double bytes = bytes_of(fill);
   if (bytes > model.memory * comm.size() && model.motions) {
     return choose_iterative(
         fmt::format("automatic: factors of {:.2g} GB predicted, {:.2g} GB allowed", 1e-9 * bytes,
                     1e-9 * model.memory * comm.size()),
         matrix, comm, model);
   }
-  const bool is_wide = fill.front() > widest_slender_front;
   ChosenSolver chosen;
   chosen.fill = fill;
   chosen.solver =
-      is_wide ? make_wide(matrix, std::move(ordering), comm) : make_slender(matrix, comm);
+      is_wide(fill) ? make_wide(matrix, std::move(ordering), comm) : make_slender(matrix, comm);
   chosen.reason = fmt::format(
       "{}, automatic: fronts of {:.0f} unknowns predicted, MUMPS from {:.0f}; factors {:.2g} MB",
       chosen.solver->name(), fill.front(), widest_slender_front, 1e-6 * bytes);

@@ -1,7 +1,10 @@
 #include <culm/solver/fill.hpp>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCore>
 #include <gtest/gtest.h>
+
+#include <numeric>
 
 namespace culm::solver {
 namespace {
@@ -85,6 +88,57 @@ TEST(Fill, FrontsOfChainsStayNarrowAndThoseOfSurfacesGrow) {
   };
   EXPECT_LT(front(chain), 18.0);  // a node and its neighbours
   EXPECT_GT(front(grid(20, 6)), 2.0 * front(grid(8, 6)));
+}
+
+// A matrix with the pattern of a graph of single unknowns, whose rows stand rank after rank.
+assembly::Matrix matrix_of(const parallel::Graph& graph, const parallel::Comm& comm) {
+  const int n = graph.size();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int v = 0; v < n; ++v) {
+    entries.emplace_back(v, v, 1.0);
+    for (int e = graph.begin[static_cast<std::size_t>(v)];
+         e < graph.begin[static_cast<std::size_t>(v) + 1]; ++e) {
+      entries.emplace_back(v, graph.neighbours[static_cast<std::size_t>(e)], 1.0);
+    }
+  }
+  Eigen::SparseMatrix<double> whole(n, n);
+  whole.setFromTriplets(entries.begin(), entries.end());
+  const long long first = n * comm.rank() / comm.size(), end = n * (comm.rank() + 1) / comm.size();
+  std::vector<long long> mine(static_cast<std::size_t>(end - first));
+  std::iota(mine.begin(), mine.end(), first);
+  return assembly::Matrix(assembly::Rows(mine, comm), whole);
+}
+
+// A chain, of which the last vertices reach to the first as well.
+parallel::Graph chain(int size, int reaching) {
+  parallel::Graph graph;
+  for (int v = 0; v < size; ++v) {
+    if (v == 0) {
+      for (int w = size - reaching; w < size; ++w) graph.neighbours.push_back(w);
+    } else if (v >= size - reaching) {
+      graph.neighbours.push_back(0);
+    }
+    if (v > 0) graph.neighbours.push_back(v - 1);
+    if (v + 1 < size) graph.neighbours.push_back(v + 1);
+    graph.begin.push_back(static_cast<int>(graph.neighbours.size()));
+    graph.weights.push_back(1);
+  }
+  return graph;
+}
+
+TEST(Fill, IsBoundedByTheEnvelope) {
+  const parallel::Comm comm;
+  for (const parallel::Graph& graph : {chain(60, 0), chain(60, 5), grid(8, 1)}) {
+    std::vector<int> as_it_stands(static_cast<std::size_t>(graph.size()));
+    std::iota(as_it_stands.begin(), as_it_stands.end(), 0);
+    const Fill bound = bound_fill(matrix_of(graph, comm), comm);
+    const Fill counted = eliminate(graph, as_it_stands);
+    EXPECT_GE(bound.entries, counted.entries);
+    EXPECT_GE(bound.operations, counted.operations);
+    if (comm.size() > 1) continue;
+    EXPECT_EQ(bound.entries, counted.entries) << "fill leaves no gaps in these";
+    EXPECT_EQ(bound.operations, counted.operations);
+  }
 }
 
 }  // namespace

@@ -24,5 +24,11 @@ struct Fill {
 Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place);
 /// The same of a matrix in the order that MUMPS takes, nested dissection. Collective.
 Fill predict_fill(const assembly::Matrix& matrix, const parallel::Comm& comm);
+/// The same from above, for an order that nobody had to find: rows as they stand, rank after rank,
+/// with a pattern that is symmetric. Factors stay within the envelope of the matrix; rows that
+/// reach to other ranks count in all columns. Takes one look at each entry. Collective.
+/// @source A. George, J. W. H. Liu, Computer Solution of Large Sparse Positive Definite Systems,
+/// 1981, ch. 4
+Fill bound_fill(const assembly::Matrix& matrix, const parallel::Comm& comm);
 
 }  // namespace culm::solver
