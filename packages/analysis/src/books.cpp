@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <set>
-#include <span>
 
 namespace culm::analysis {
 namespace {
@@ -11,6 +10,31 @@ namespace {
 std::string account_of(const model::Batch& batch) {
   const auto* booked = dynamic_cast<const model::Booked*>(&batch);
   return booked == nullptr ? "" : booked->account();
+}
+
+// All numbers of works and what was pushed with: one message for all, as it takes as long as for
+// one.
+template <class Visit>
+void for_numbers(std::vector<model::StepWork>& works, std::array<double, 2>& pushed,
+                 const Visit& visit) {
+  for (model::StepWork& work : works) {
+    for (double* number : {&work.external, &work.drives, &work.damping, &work.dissipation}) {
+      visit(*number);
+    }
+    for (double& number : work.force) visit(number);
+    for (double& number : work.moment) visit(number);
+  }
+  for (double& number : pushed) visit(number);
+}
+
+void sum_up(std::vector<model::StepWork>& works, std::array<double, 2>& pushed,
+            const parallel::Comm& comm) {
+  if (comm.size() == 1) return;
+  std::vector<double> numbers;
+  for_numbers(works, pushed, [&](double number) { numbers.push_back(number); });
+  comm.sum(numbers);
+  auto sum = numbers.begin();
+  for_numbers(works, pushed, [&](double& number) { number = *sum++; });
 }
 
 }  // namespace
@@ -36,20 +60,11 @@ model::StepWork Books::add(const model::State& state, const Stencil& stencil) {
     pushed_[0] += work.force.norm();
     pushed_[1] += work.moment.norm();
   }
-  system_.comm().sum(pushed_);
+  sum_up(step, pushed_, system_.comm());
   model::StepWork total;
   for (std::size_t i = 0; i < step.size(); ++i) {
-    model::StepWork& work = step[i];
-    double scalars[4] = {work.external, work.drives, work.damping, work.dissipation};
-    system_.comm().sum(scalars);
-    work.external = scalars[0];
-    work.drives = scalars[1];
-    work.damping = scalars[2];
-    work.dissipation = scalars[3];
-    system_.comm().sum(std::span(work.force.data(), 3));
-    system_.comm().sum(std::span(work.moment.data(), 3));
-    works_[i] += work;
-    total += work;
+    works_[i] += step[i];
+    total += step[i];
   }
   return total;
 }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <cmath>
 
 namespace culm::assembly {
@@ -69,8 +70,9 @@ Energies System::energies(const model::Coordinates& q, const model::Momentum& mo
   };
   for (const auto& batch : model_.element_batches()) add(*batch, strain);
   for (const auto& load : model_.loads()) add(*load, potential);
-  return {momentum.kinetic_energy, comm_.sum(strain), comm_.sum(potential),
-          std::abs(momentum.kinetic_energy) + comm_.sum(amount)};
+  std::array<double, 3> sums = {strain, potential, amount};
+  comm_.sum(sums);
+  return {momentum.kinetic_energy, sums[0], sums[1], std::abs(momentum.kinetic_energy) + sums[2]};
 }
 
 model::Momentum System::momentum(const model::Coordinates& q,
@@ -81,10 +83,10 @@ model::Momentum System::momentum(const model::Coordinates& q,
       source->add_momentum(q, velocity, total);
     }
   }
-  total.kinetic_energy = comm_.sum(total.kinetic_energy);
-  comm_.sum(std::span(total.linear.data(), 3));
-  comm_.sum(std::span(total.angular.data(), 3));
-  return total;
+  Vec<7> sums;
+  sums << total.kinetic_energy, total.linear, total.angular;
+  comm_.sum(std::span(sums.data(), 7));
+  return {sums[0], sums.segment<3>(1), sums.tail<3>()};
 }
 
 }  // namespace culm::assembly
