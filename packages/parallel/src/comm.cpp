@@ -32,6 +32,7 @@ Comm::Comm() {
 }
 
 Comm::Comm(MPI_Comm comm) : comm_(comm) {
+  start_mpi();
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
 }

@@ -18,6 +18,7 @@ class Comm {
   /// All processes that were launched together; this one where MPI is not running, which a
   /// launched process sees to (MpiSession).
   Comm();
+  /// Starts MPI, unless it is running.
   explicit Comm(MPI_Comm comm);
 
   int rank() const { return rank_; }
