@@ -92,8 +92,8 @@ inline bool factor_long_rows(double* D, int size, int columns, const double* bef
   return true;
 }
 
-/// How many numbers behind a panel are read with the last of its rows.
-constexpr int numbers_behind = 4 * pack_lanes;
+/// No more numbers than these are read behind a panel, with the last of its rows.
+constexpr int numbers_behind = pack_lanes;
 
 /// The same with rows of so many vectors. @param room for size of them
 template <int vectors>
