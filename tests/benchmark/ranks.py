@@ -41,6 +41,8 @@ def write_pendula(count, path):
 
 def command(culm, folder, elements, steps):
     beams = -(-elements // LONGEST)
+    if elements % beams != 0:
+        sys.exit(f"{elements} elements are not those of {beams} equal beams of at most {LONGEST}")
     deck = pathlib.Path(folder, "pendula.xml")
     deck.parent.mkdir(exist_ok=True)
     write_pendula(beams, deck)

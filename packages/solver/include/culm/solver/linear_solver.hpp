@@ -121,9 +121,10 @@ const std::vector<std::string>& linear_solver_names();
 
 /// The solver of that name. `Automatic` takes Block LU for graphs like beams and MUMPS for graphs
 /// like shells, whose factors are so dense that MUMPS gains by its dense kernels; it decides by
-/// predict_fill. Small matrices are factored on rank 0: solutions are the same on any number of
-/// ranks, and each time. From 20 000 unknowns on all ranks work together. Where the factors would
-/// not fit into the memory, it takes the iterative solver. Collective.
+/// predict_fill, for large matrices by bound_fill where that is enough. Small matrices are factored
+/// on rank 0: solutions are the same on any number of ranks, and each time. From 20 000 unknowns on
+/// all ranks work together. Where the factors would not fit into the memory, it takes the iterative
+/// solver. Collective.
 ChosenSolver choose_linear_solver(const std::string& name,
                                   const std::shared_ptr<const assembly::Matrix>& matrix,
                                   const parallel::Comm& comm, const ModelBehind& model = {});
