@@ -88,6 +88,17 @@ bool BlockLu::factor() {
   return host_.empty() ? factor_with_new_hosts() : factor_as_planned(rest_of_rounding);
 }
 
+bool BlockLu::factor_and_reduce(std::span<const double> x) {
+  if (!host_.empty()) {
+    take(x);
+    return factor_as_planned(rest_of_rounding, true);
+  }
+  if (!factor_with_new_hosts()) return false;
+  take(x);
+  reduce_taken();
+  return true;
+}
+
 bool BlockLu::factor_with_new_hosts() {
   const std::vector<int> hosts = choose_hosts(rows_, first_kept_);
   return factor_and_merge(hosts, good_pivot) || factor_and_merge(hosts, rest_of_rounding);
@@ -105,10 +116,10 @@ bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least) {
 }
 
 // Pivots have to exceed so much of what has been on the diagonal.
-bool BlockLu::factor_as_planned(double least) {
+bool BlockLu::factor_as_planned(double least, bool reduces) {
   failed_ = nullptr;
   noted_ = 0;
-  const auto eliminates = [&](const auto& panel) { return eliminate(panel, least); };
+  const auto eliminates = [&](const auto& panel) { return eliminate(panel, least, reduces); };
   if (!std::ranges::all_of(eliminated(), eliminates)) return false;
   if (kept_ > 0) fill_before(plan_.panels.back());
   return true;
@@ -299,7 +310,7 @@ double BlockLu::largest_behind_joints(int row) const {
 }
 
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPlan::Panel& panel,
-                                                                   double least) {
+                                                                   double least, bool reduces) {
   if (reads_backward_) fetch_before(panel);
   fill_before(panel);
   if (has_grown(panel)) return false;
@@ -313,6 +324,9 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
     return false;
   }
   update(panel, before(panel).updates);
+  if (reduces) {
+    with_sizes(panel, [&](auto size, auto width) { substitute_forward(panel, size, width); });
+  }
   return true;
 }
 
@@ -326,15 +340,26 @@ std::span<const double> BlockLu::remainder() const {
   return std::span(values_).subspan(plan_.panels.back().pivot, index(kept_) * index(kept_));
 }
 
-CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::reduce(std::span<double> x) {
+void BlockLu::reduce(std::span<double> x) {
+  take(x);
+  reduce_taken();
+  put_kept(x);
+}
+
+void BlockLu::take(std::span<const double> x) {
   for (std::size_t place = 0; place < x_.size(); ++place) {
     x_[place] = x[index(plan_.unknown[place])];
   }
+}
+
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::reduce_taken() {
   for (const BlockPlan::Panel& panel : eliminated()) {
     with_sizes(panel, [&](auto size, auto width) { substitute_forward(panel, size, width); });
   }
-  const std::size_t first = x_.size() - index(kept_);
-  for (std::size_t place = first; place < x_.size(); ++place) {
+}
+
+void BlockLu::put_kept(std::span<double> x) const {
+  for (std::size_t place = x_.size() - index(kept_); place < x_.size(); ++place) {
     x[index(plan_.unknown[place])] = x_[place];
   }
 }

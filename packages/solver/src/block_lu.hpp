@@ -30,6 +30,9 @@ class BlockLu {
   /// Factors the present values. @return false if a pivot is nothing but rounding or not a number,
   /// or entries grow too much; the matrix may yet have factors with other pivots
   bool factor();
+  /// The same, and reduces x on the way, while the factors of each block are at hand; then
+  /// `put_kept` and `extend` finish the solution.
+  bool factor_and_reduce(std::span<const double> x);
   /// The same with hosts that are chosen by the present values.
   bool factor_with_new_hosts();
   /// Puts A^-1 x into x with the last factors, where no rows are kept.
@@ -39,6 +42,8 @@ class BlockLu {
   std::span<const double> remainder() const;
   /// x_K - A_KI A_II^-1 x_I takes the place of x_K; first half of a solution.
   void reduce(std::span<double> x);
+  /// What the last reduction leaves takes the place of x_K.
+  void put_kept(std::span<double> x) const;
   /// With x_K found, A_II^-1 (x_I - A_IK x_K) takes the place of x_I that was reduced last.
   void extend(std::span<double> x);
   /// Of the matrix that was factored last; without what is kept.
@@ -52,7 +57,7 @@ class BlockLu {
 
  private:
   bool factor_and_merge(const std::vector<int>& hosts, double least);
-  bool factor_as_planned(double least);
+  bool factor_as_planned(double least, bool reduces = false);
   bool merge_failed();
   void plan();
   std::span<const BlockPlan::Panel> eliminated() const;
@@ -60,7 +65,9 @@ class BlockLu {
   void fetch_before(const BlockPlan::Panel& panel);
   void fill_before(const BlockPlan::Panel& panel);
   double start_at(std::size_t place) const;
-  bool eliminate(const BlockPlan::Panel& panel, double least);
+  bool eliminate(const BlockPlan::Panel& panel, double least, bool reduces);
+  void take(std::span<const double> x);
+  void reduce_taken();
   bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
   double largest_behind_joints(int row) const;

@@ -12,11 +12,21 @@ constexpr int hosts_follow = -1;  // no pivot of KLU2
 }  // namespace
 
 bool GuardedBlockLu::factor() {
+  return factor_with([&] { return blocks_.factor(); });
+}
+
+bool GuardedBlockLu::factor_for(std::span<const double> b) {
+  has_begun_ = false;
+  return factor_with([&] { return has_begun_ = blocks_.factor_and_reduce(b); });
+}
+
+template <class FactorBlocks>
+bool GuardedBlockLu::factor_with(const FactorBlocks& factor_blocks) {
   ++factorisations_;
   if (uses_klu2_) return factor_by_klu2(false);
   const bool is_first = blocks_.hosts().empty();
   if (is_first) remember_once();
-  if (blocks_.factor()) return true;
+  if (factor_blocks()) return true;
   return (!is_first && factor_with_other_hosts()) || factor_by_klu2(true);
 }
 
@@ -53,6 +63,14 @@ void GuardedBlockLu::solve(std::span<double> x) {
     klu2_->solve(x);
   } else {
     blocks_.solve(x);
+  }
+}
+
+void GuardedBlockLu::finish(std::span<double> x) {
+  if (has_begun_) {
+    blocks_.extend(x);
+  } else {
+    solve(x);
   }
 }
 

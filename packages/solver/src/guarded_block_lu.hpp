@@ -24,6 +24,10 @@ class GuardedBlockLu {
 
   /// Factors the present values. @return false if the matrix is singular to working precision
   bool factor();
+  /// The same, with the solution for b begun on the way where blocks serve.
+  bool factor_for(std::span<const double> b);
+  /// Finishes the solution that factor_for began. @param x  b, in whose place it takes
+  void finish(std::span<double> x);
   /// Factors the present values with new pivots of KLU2. @return as factor()
   bool factor_anew();
   /// Whether a solution must show that the last factors serve: each of blocks, as pivots come from
@@ -50,6 +54,8 @@ class GuardedBlockLu {
   std::string remark() const;
 
  private:
+  template <class FactorBlocks>
+  bool factor_with(const FactorBlocks& factor_blocks);
   bool factor_with_other_hosts();
   bool factor_by_klu2(bool anew);
   void remember_once();
@@ -59,6 +65,7 @@ class GuardedBlockLu {
   BlockLu blocks_;
   std::optional<Klu2> klu2_;  ///< made when it is needed
   bool uses_klu2_ = false;
+  bool has_begun_ = false;  ///< the solution that factor_for was given
   std::optional<std::vector<int>> remembered_;  ///< pivots before others were chosen; else none
   long factorisations_ = 0;
   long by_klu2_ = 0;

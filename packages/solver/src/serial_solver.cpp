@@ -27,8 +27,17 @@ class SerialSolver final : public LinearSolver {
   std::string name() const override { return name_; }
 
   bool factor() override {
-    has_solved_ = false;
+    has_solved_ = has_begun_ = false;
     return factors_.factor();
+  }
+
+  bool factor_for(const Vector& b) override {
+    if constexpr (begins_solutions) {
+      has_solved_ = false;
+      has_begun_ = true;
+      return factors_.factor_for(b.values());
+    }
+    return factor();
   }
 
   LinearResidual solve(const Vector& b, Vector& x) override {
@@ -67,9 +76,18 @@ class SerialSolver final : public LinearSolver {
   }
 
  private:
+  static constexpr bool begins_solutions = requires(Factors f, std::span<double> x) { f.finish(x); };
+
+  void apply_inverse(std::span<double> x) {
+    if constexpr (begins_solutions) {
+      if (std::exchange(has_begun_, false)) return factors_.finish(x);
+    }
+    factors_.solve(x);
+  }
+
   double solve_once(std::span<const double> b, std::span<double> x) {
     std::ranges::copy(b, x.begin());
-    factors_.solve(x);
+    apply_inverse(x);
     const auto check = [&](std::span<double> rest) {
       return residual(*matrix_, x, b, rest).relative();
     };
@@ -93,6 +111,7 @@ class SerialSolver final : public LinearSolver {
   Factors factors_;
   std::vector<double> rest_;  // of a solution that is refined
   bool has_solved_ = false;   // with the last factors
+  bool has_begun_ = false;    // the solution that follows
 };
 
 template <class Factors>

@@ -42,9 +42,16 @@ class SubstructuredSolver final : public LinearSolver {
   std::string name() const override { return "Block LU"; }
 
   bool factor() override {
-    ++factorisations_;
-    if (!uses_whole_ && factor_pieces()) return true;
-    return factor_whole();
+    has_begun_ = false;
+    return factor_with([&] { return piece_.factor(); });
+  }
+
+  bool factor_for(const Vector& b) override {
+    has_begun_ = false;
+    return factor_with([&] {
+      parts_.take(b.values(), x_);
+      return has_begun_ = piece_.factor_and_reduce(x_);
+    });
   }
 
   LinearResidual solve(const Vector& b, Vector& x) override {
@@ -173,11 +180,19 @@ class SubstructuredSolver final : public LinearSolver {
     if (!remembered_) remembered_ = History{piece_.hosts(), all_hosts_, uses_whole_};
   }
 
-  bool factor_pieces() {
+  template <class FactorPiece>
+  bool factor_with(const FactorPiece& factor_piece) {
+    ++factorisations_;
+    if (!uses_whole_ && factor_pieces(factor_piece)) return true;
+    return factor_whole();
+  }
+
+  template <class FactorPiece>
+  bool factor_pieces(const FactorPiece& factor_piece) {
     parts_.gather_values();
     const bool is_first = piece_.hosts().empty();
     if (is_first) remember_once();
-    bool sound = piece_.factor();
+    bool sound = factor_piece();
     bool is_new = is_first;
     if (comm_.max(sound ? 0 : 1) != 0) {
       remember_once();  // on all ranks
@@ -213,8 +228,12 @@ class SubstructuredSolver final : public LinearSolver {
   }
 
   void apply_inverse(const Vector& b, Vector& x) {
-    parts_.take(b.values(), x_);
-    piece_.reduce(x_);
+    if (std::exchange(has_begun_, false)) {
+      piece_.put_kept(x_);
+    } else {
+      parts_.take(b.values(), x_);
+      piece_.reduce(x_);
+    }
     if (parts_.interface_size() > 0) {
       parts_.gather(b.values(), x_, interface_x_);
       if (interface_) interface_->solve(interface_x_);
@@ -267,6 +286,7 @@ class SubstructuredSolver final : public LinearSolver {
   Substructures parts_;
   BlockLu piece_;
   std::vector<double> x_;                    // of the piece
+  bool has_begun_ = false;                   // the solution that follows
   std::optional<GuardedBlockLu> interface_;  // on the root, if there is one
   std::vector<double> interface_x_;
   ResidualCheck check_;

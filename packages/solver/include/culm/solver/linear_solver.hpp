@@ -41,6 +41,12 @@ class LinearSolver {
   virtual std::string name() const = 0;
   /// Factors the present values. @return false if the matrix is singular to working precision
   virtual bool factor() = 0;
+  /// The same where a solution for b is the next to follow, with b as it is now: a part of it may
+  /// be done on the way.
+  virtual bool factor_for(const Vector& b) {
+    static_cast<void>(b);
+    return factor();
+  }
   /// x = A^-1 b with the last factors.
   virtual LinearResidual solve(const Vector& b, Vector& x) = 0;
   /// The same with |b - A x| <= reduction |b| only, where that costs less.
