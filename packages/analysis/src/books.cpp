@@ -1,5 +1,6 @@
 #include <culm/analysis/books.hpp>
 #include <culm/model/booked.hpp>
+#include <culm/model/dead_weight.hpp>
 
 #include <algorithm>
 #include <set>
@@ -39,7 +40,14 @@ void sum_up(std::vector<model::StepWork>& works, std::array<double, 2>& pushed,
 
 }  // namespace
 
-Books::Books(const assembly::System& system) : system_(system), batches_(system.model().batches()) {
+Books::Books(const assembly::System& system, bool with_momenta)
+    : system_(system), batches_(system.model().batches()) {
+  if (!with_momenta) {
+    std::erase_if(batches_, [](const model::Batch* batch) {
+      const auto* dead = dynamic_cast<const model::DeadWeight*>(batch);
+      return dead != nullptr && dead->has_potential() && account_of(*batch).empty();
+    });
+  }
   std::set<std::string> names;
   for (const model::Batch* batch : batches_) names.insert(account_of(*batch));
   names.erase("");

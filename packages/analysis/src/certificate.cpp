@@ -40,7 +40,7 @@ double strain_sizes(const assembly::System& system, const model::Coordinates& q)
 }  // namespace
 
 Certificate::Certificate(const assembly::System& system, bool promises, bool shows_work)
-    : system_(system), promises_(promises), shows_work_(shows_work), books_(system) {}
+    : system_(system), promises_(promises), shows_work_(shows_work), books_(system, is_free()) {}
 
 void Certificate::start(const model::State& state) {
   first_momentum_ = momentum_ = system_.momentum(state.next, state.velocity);

@@ -1,4 +1,6 @@
+#include <culm/analysis/books.hpp>
 #include <culm/analysis/certificate.hpp>
+#include <culm/model/dead_weight.hpp>
 
 #include "motion.hpp"
 
@@ -12,6 +14,56 @@ double number(const Certificate& certificate, const std::string& name) {
     if (what == name) return value;
   }
   throw std::runtime_error("no number " + name);
+}
+
+// Gravity on the first node of a chain, or what would be gravity if it did not change.
+class Weight final : public model::Batch, public model::DeadWeight {
+ public:
+  explicit Weight(bool has_potential) : has_potential_(has_potential) {}
+  const model::Effect& effect() const override { return effect_; }
+  int size() const override { return 1; }
+  std::vector<int> blocks(int, const model::UnknownTable& unknowns) const override {
+    return {unknowns.node_block(0)};
+  }
+  bool has_tangent() const override { return false; }
+  void place(model::Placement placement, model::Form) override {
+    is_owned_ = !placement.items.empty() && placement.owned[0];
+  }
+  void prepare(const model::State&, const Stencil&) override {}
+  Verdict assemble(const model::State&, const Stencil&, Want, model::Target&) override {
+    return Verdict::ok;
+  }
+  void extrapolate(const model::State&, const Stencil&, const model::Coordinates&) override {}
+  double stored_energy(const model::Coordinates&) const override { return 0.0; }
+  model::StepWork step_work(const model::State&, const Stencil&) const override {
+    model::StepWork work;
+    if (!is_owned_) return work;
+    work.external = has_potential_ ? 0.0 : 3.0;
+    work.force = Vec3(0.0, 0.0, -2.0);
+    return work;
+  }
+  bool has_potential() const override { return has_potential_; }
+
+ private:
+  model::Effect effect_{"Weight"};
+  bool has_potential_;
+  bool is_owned_ = false;
+};
+
+// Of a load with a potential there is nothing but force and moment to book.
+TEST(Books, AskDeadWeightsWhereForcesCount) {
+  for (const bool has_potential : {true, false}) {
+    const Motion chain([&](model::Model& model) {
+      build_free_chain(model);
+      model.add_load(std::make_unique<Weight>(has_potential));
+    });
+    for (const bool with_momenta : {true, false}) {
+      Books books(*chain.system, with_momenta);
+      const model::StepWork work = books.add(chain.state, Stencil::midpoint(0.1));
+      EXPECT_EQ(work.external, has_potential ? 0.0 : 3.0);
+      EXPECT_EQ(books.forces(), has_potential && !with_momenta ? 0.0 : 2.0);
+    }
+  }
 }
 
 TEST(Certificate, HoldsForTheConservingScheme) {

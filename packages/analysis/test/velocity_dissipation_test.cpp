@@ -49,7 +49,7 @@ class Damped : public Motion {
   // one step; returns what the dissipation took
   double step(double h) {
     if (!attempt(h).accepted) throw std::runtime_error("a step did not converge");
-    const double taken = Books(*system).add(state, Stencil::midpoint(h)).dissipation;
+    const double taken = Books(*system, true).add(state, Stencil::midpoint(h)).dissipation;
     stepper->accept();
     return taken;
   }

@@ -1,4 +1,5 @@
 #include <culm/assembly/tpetra.hpp>
+#include <culm/math/types.hpp>
 
 #include <Teuchos_CommHelpers.hpp>
 
@@ -60,6 +61,19 @@ Pattern::Pattern(const Rows& rows, const Rows& columns, std::span<const std::siz
     : Pattern(std::make_shared<const Stored>(make_graph(rows, columns, begin, column_of))) {}
 
 Pattern::Pattern(std::shared_ptr<const Stored> stored) : stored_(std::move(stored)) {}
+
+std::vector<int> first_columns(std::span<const std::size_t> row_begin,
+                               std::span<const int> column_of) {
+  std::vector<int> first(row_begin.size() - 1, -1);
+  for (std::size_t row = 0; row < first.size(); ++row) {
+    const std::size_t begin = row_begin[row], end = row_begin[row + 1];
+    // columns rise
+    if (begin < end && index(column_of[end - 1] - column_of[begin]) == end - begin - 1) {
+      first[row] = column_of[begin];
+    }
+  }
+  return first;
+}
 
 Matrix::Stored::Stored(Teuchos::RCP<CrsMatrix> filled)
     : matrix(std::move(filled)),

@@ -1,4 +1,5 @@
 #include <culm/assembly/rounding.hpp>
+#include <culm/math/fetch.hpp>
 
 #include "block_values.hpp"
 
@@ -84,12 +85,14 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
   const auto values = matrix.values();
   const auto row_begin = matrix.row_begin();
   const auto column_of = matrix.column_of();
+  const auto first_column = system.first_columns();
   double share = 0.0;
   double largest = 0.0;
   int largest_row = 0;
   const auto judge = [&](int row) {
     const double found = std::abs(residual[index(row)]);
     if (found <= limit || share > hopeless) return;
+    fetch(values.data() + row_begin[index(row)] + numbers_ahead, sizeof(double));
     if (found > largest) {
       largest = found;
       largest_row = row;
@@ -101,10 +104,15 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
     // from here on the share cannot exceed the largest one so far
     const double enough = (found / (epsilon * share) - terms) / roundings;
     double sum = 0.0;
-    for (auto k = first; k < last; ++k) {
-      sum += std::abs(values[k]) * sizes[index(column_of[k])];
-      if (sum >= enough) return;
-    }
+    const auto reaches_enough = [&](const auto& size_of) {
+      for (auto k = first; k < last && sum < enough; ++k) sum += std::abs(values[k]) * size_of(k);
+      return sum >= enough;
+    };
+    const int column = first_column[index(row)];
+    const bool is_small =
+        column < 0 ? reaches_enough([&](auto k) { return sizes[index(column_of[k])]; })
+                   : reaches_enough([&](auto k) { return sizes[index(column) + (k - first)]; });
+    if (is_small) return;
     share = std::max(share, found / (epsilon * (roundings * sum + terms)));
   };
   const auto each_row = [&](auto action) {

@@ -47,6 +47,7 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
       update_effect_(ledger.add("Update of the state")),
       matrix_(std::make_shared<Matrix>(layout_.pattern())),
       matrix_view_(matrix_),
+      first_columns_(assembly::first_columns(matrix_->row_begin(), matrix_->column_of())),
       residual_(layout_.rows()) {
   const model::UnknownTable& unknowns = model.unknowns();
   for (const model::Batch* batch : batches_) {

@@ -192,6 +192,12 @@ TEST_P(SystemTest, EnergyCountsEachElementOnce) {
   EXPECT_NEAR(system.strain_energy(state.next), expected, 1e-12 * expected);
 }
 
+TEST(FirstColumns, AreThoseOfRowsWithoutGaps) {
+  const std::vector<std::size_t> row_begin = {0, 3, 5, 5, 6};
+  const std::vector<int> column_of = {4, 5, 6, 1, 3, 7};
+  EXPECT_EQ(first_columns(row_begin, column_of), (std::vector<int>{4, -1, -1, 7}));
+}
+
 // Largest residual of all force rows over the bound on rounding of its row.
 double rounding_share(System& system, const model::State& state) {
   system.prepare(state, Stencil::statics());

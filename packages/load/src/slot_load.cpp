@@ -126,7 +126,7 @@ void SlotLoad::place(model::Placement placement, model::Form form) {
     const Item& item = local(i);
     if (is_free(item)) {
       free_.push_back({i, item.nodes[0], nodes_.turns(item.nodes[0]),
-                       !item.constant.rightCols<3>().isZero(0.0)});
+                       !item.constant.rightCols<3>().isZero(0.0), item.constant.col(0)});
     } else {
       others_.push_back(i);
     }
@@ -157,15 +157,19 @@ Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Wa
   return verdict;
 }
 
+Eigen::Map<const model::NodeSlots> SlotLoad::forces_of(const Free& item) const {
+  return Eigen::Map<const model::NodeSlots>(local(item.local).constant.data());
+}
+
 // What assemble_item does, without looking for masters, slots of other nodes and signals.
 Verdict SlotLoad::assemble_free(const Free& item, const model::State& state, const Stencil& stencil,
                                 double factor, bool tangent, model::Target& target) const {
-  const Eigen::Map<const model::NodeSlots> constant(local(item.local).constant.data());
   const bool has_arms = item.turns && item.on_directors;
   Vec6 residual;
-  residual.head<3>() = -factor * constant.col(0);
+  residual.head<3>() = -factor * item.force;
   residual.tail<3>().setZero();
   if (has_arms) {
+    const Eigen::Map<const model::NodeSlots> constant = forces_of(item);
     const model::NodeSlots mid =
         (1.0 - stencil.theta) * model::NodeTable::slots(state.prev, item.node) +
         stencil.theta * model::NodeTable::slots(state.next, item.node);
@@ -173,7 +177,7 @@ Verdict SlotLoad::assemble_free(const Free& item, const model::State& state, con
       residual.tail<3>() -= factor * Vec3(mid.col(s)).cross(Vec3(constant.col(s)));
     }
   } else if (!item.turns) {
-    residual.tail<3>() = -factor * constant.col(1);
+    residual.tail<3>() = -factor * forces_of(item).col(1);
   }
   if (!std::isfinite(residual.sum())) return Verdict::not_finite;
   target.force_scale = std::max(target.force_scale, residual.lpNorm<Eigen::Infinity>());
@@ -182,7 +186,7 @@ Verdict SlotLoad::assemble_free(const Free& item, const model::State& state, con
   model::Arms<4> arms{model::NodeTable::slots(state.next, item.node)};
   arms.slots.col(0).setZero();
   RowMat<6, 6> block = RowMat<6, 6>::Zero();
-  model::NullSpace::add_turning(-factor * constant, arms, stencil.theta, block);
+  model::NullSpace::add_turning(-factor * forces_of(item), arms, stencil.theta, block);
   placement_.scatter.add_tangent(item.local, 0, 0, block, target);
   return Verdict::ok;
 }
@@ -262,14 +266,16 @@ model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& st
 // What add_item_work adds of forces with a potential, which weight has on every node.
 void SlotLoad::add_push(const Free& item, const model::State& state, double theta, double factor,
                         model::StepWork& work) const {
-  const Eigen::Map<const model::NodeSlots> constant(local(item.local).constant.data());
   const auto prev = model::NodeTable::slots(state.prev, item.node);
   const auto next = model::NodeTable::slots(state.next, item.node);
-  work.force += factor * constant.col(0);
-  for (int s = 0; s < (item.on_directors ? 4 : 1); ++s) {
+  const auto add_moment = [&](int s, const Vec3& force) {
     const Vec3 mid = (1.0 - theta) * prev.col(s) + theta * next.col(s);
-    work.moment += mid.cross(Vec3(factor * constant.col(s)));
-  }
+    work.moment += mid.cross(Vec3(factor * force));
+  };
+  work.force += factor * item.force;
+  add_moment(0, item.force);
+  if (!item.on_directors) return;
+  for (int s = 1; s < 4; ++s) add_moment(s, forces_of(item).col(s));
 }
 
 }  // namespace culm::load

@@ -59,6 +59,7 @@ bool GuardedBlockLu::factor_by_klu2(bool anew) {
 bool GuardedBlockLu::factor_anew() { return factor_by_klu2(true); }
 
 void GuardedBlockLu::solve(std::span<double> x) {
+  has_begun_ = false;  // blocks remember one right-hand side
   if (uses_klu2_) {
     klu2_->solve(x);
   } else {
@@ -67,7 +68,7 @@ void GuardedBlockLu::solve(std::span<double> x) {
 }
 
 void GuardedBlockLu::finish(std::span<double> x) {
-  if (has_begun_) {
+  if (std::exchange(has_begun_, false)) {
     blocks_.extend(x);
   } else {
     solve(x);

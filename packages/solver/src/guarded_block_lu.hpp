@@ -65,7 +65,7 @@ class GuardedBlockLu {
   BlockLu blocks_;
   std::optional<Klu2> klu2_;  ///< made when it is needed
   bool uses_klu2_ = false;
-  bool has_begun_ = false;  ///< the solution that factor_for was given
+  bool has_begun_ = false;                      ///< the solution that factor_for was given
   std::optional<std::vector<int>> remembered_;  ///< pivots before others were chosen; else none
   long factorisations_ = 0;
   long by_klu2_ = 0;

@@ -1,5 +1,6 @@
 #include "matrix_checks.hpp"
 
+#include <culm/math/fetch.hpp>
 #include <culm/math/types.hpp>
 #include <culm/math/vector_units.hpp>
 #include <culm/mechanics/pack.hpp>
@@ -91,17 +92,18 @@ struct RowSum {
 
 // Columns are in order, and in chains mostly side by side.
 CULM_FOR_EACH_VECTOR_UNIT Residual residual_of(const std::size_t* row_begin, const int* columns,
-                                               const double* values, const double* x,
-                                               std::span<const double> b, std::span<double> r) {
+                                               const int* first_column, const double* values,
+                                               const double* x, std::span<const double> b,
+                                               std::span<double> r) {
   Residual result;
   for (std::size_t row = 0; row < b.size(); ++row) {
     const std::size_t first = row_begin[row];
     const std::size_t count = row_begin[row + 1] - first;
-    const int* of_row = columns + first;
-    const bool side_by_side =
-        count >= pack_lanes && index(of_row[count - 1] - of_row[0]) == count - 1;
-    const RowSum sum = side_by_side ? multiply(values + first, x + of_row[0], count)
-                                    : multiply(values + first, of_row, x, count);
+    const int column = first_column[row];
+    fetch(values + first + numbers_ahead, count * sizeof(double));
+    const RowSum sum = column >= 0 && count >= pack_lanes
+                           ? multiply(values + first, x + column, count)
+                           : multiply(values + first, columns + first, x, count);
     const double rest = b[row] - sum.products;
     if (!std::isfinite(rest)) return {HUGE_VAL, 1.0};
     if (!r.empty()) r[row] = rest;
@@ -113,11 +115,17 @@ CULM_FOR_EACH_VECTOR_UNIT Residual residual_of(const std::size_t* row_begin, con
 
 }  // namespace
 
-Residual residual(const CrsMatrix& A, std::span<const double> x, std::span<const double> b,
-                  std::span<double> r) {
+Residual residual(const CrsMatrix& A, std::span<const int> first_column, std::span<const double> x,
+                  std::span<const double> b, std::span<double> r) {
   const auto matrix = A.getLocalMatrixHost();
-  return residual_of(matrix.graph.row_map.data(), matrix.graph.entries.data(), matrix.values.data(),
-                     x.data(), b, r);
+  return residual_of(matrix.graph.row_map.data(), matrix.graph.entries.data(), first_column.data(),
+                     matrix.values.data(), x.data(), b, r);
+}
+
+std::vector<int> first_columns(const CrsMatrix& A) {
+  const auto graph = A.getLocalMatrixHost().graph;
+  return assembly::first_columns({graph.row_map.data(), graph.row_map.extent(0)},
+                                 {graph.entries.data(), graph.entries.extent(0)});
 }
 
 double largest_entry(const CrsMatrix& A) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace culm::solver {
 
@@ -16,9 +17,12 @@ struct Residual {
   double size = 0.0;     ///< largest sum of the absolute terms of a row
   double relative() const { return size > 0.0 ? largest / size : 0.0; }
 };
-/// Of this rank's rows. @param x values of all local columns @param r b - A x, or empty
-Residual residual(const assembly::CrsMatrix& A, std::span<const double> x,
-                  std::span<const double> b, std::span<double> r);
+/// Of this rank's rows. @param first_column of the rows, see assembly::first_columns @param x
+/// values of all local columns @param r b - A x, or empty
+Residual residual(const assembly::CrsMatrix& A, std::span<const int> first_column,
+                  std::span<const double> x, std::span<const double> b, std::span<double> r);
+/// Those of the rows of a matrix.
+std::vector<int> first_columns(const assembly::CrsMatrix& A);
 
 /// Residuals above it are more than rounding.
 constexpr double good_residual = 1e-14;

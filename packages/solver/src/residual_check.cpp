@@ -11,6 +11,7 @@ ResidualCheck::ResidualCheck(Teuchos::RCP<const assembly::CrsMatrix> matrix,
                              const parallel::Comm& comm)
     : matrix_(std::move(matrix)),
       comm_(comm),
+      first_columns_(first_columns(*matrix_)),
       columns_(assembly::rows_of(matrix_->getColMap())),
       rest_(assembly::rows_of(matrix_->getRowMap())) {}
 
@@ -20,7 +21,8 @@ double ResidualCheck::operator()(const assembly::Vector& b, const assembly::Vect
     assembly::tpetra(columns_).doImport(assembly::tpetra(x), *importer, Tpetra::INSERT);
   }
   const assembly::Vector& all = importer.is_null() ? x : columns_;
-  const Residual mine = residual(*matrix_, all.values(), b.values(), rest_.values());
+  const Residual mine =
+      residual(*matrix_, first_columns_, all.values(), b.values(), rest_.values());
   std::array<double, 2> joint = {mine.largest, mine.size};
   comm_.max(joint);
   return Residual{joint[0], joint[1]}.relative();

@@ -4,6 +4,8 @@
 #include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
 
+#include <vector>
+
 namespace culm::solver {
 
 /// Of one matrix, whose values may change.
@@ -19,6 +21,7 @@ class ResidualCheck {
  private:
   Teuchos::RCP<const assembly::CrsMatrix> matrix_;
   parallel::Comm comm_;
+  std::vector<int> first_columns_;
   assembly::Vector columns_;  // values of all local columns
   assembly::Vector rest_;
 };

@@ -177,6 +177,36 @@ TEST(BlockLu, KeepsTheLastBlocks) {
   }
 }
 
+// What is reduced on the way is what is reduced afterwards, to the last digit, the first time too.
+TEST(BlockLu, ReducesWhileItFactors) {
+  for (const Skeleton& s : skeletons()) {
+    BlockMatrix A(s);
+    const int kept = s.sizes.back();
+    const std::vector<int> found_blocks = block_of_row(find_blocks(*A.matrix));
+    if (s.sizes.size() < 2 || found_blocks[s.rows() - kept - 1] == found_blocks[s.rows() - kept]) {
+      continue;
+    }
+    BlockLu one_by_one(*A.matrix, kept), at_once(*A.matrix, kept);
+    for (int i = 0; i < 2; ++i) {
+      ASSERT_EQ(one_by_one.factor(), true) << s.name;
+      const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0 + i);
+      Eigen::VectorXd x = b, y = b;
+      const std::span<double> of_x(x.data(), static_cast<std::size_t>(x.size()));
+      const std::span<double> of_y(y.data(), static_cast<std::size_t>(y.size()));
+      one_by_one.reduce(of_x);
+      ASSERT_TRUE(at_once.factor_and_reduce(of_y));
+      EXPECT_EQ(y, b);
+      at_once.put_kept(of_y);
+      EXPECT_EQ(y, x) << s.name << " of " << s.sizes.size();
+      one_by_one.extend(of_x);
+      at_once.extend(of_y);
+      EXPECT_EQ(y, x) << s.name << " of " << s.sizes.size();
+      A.values *= 2.0;
+      A.refresh();
+    }
+  }
+}
+
 // Elimination begins at the free end, so that nothing is dragged along.
 TEST(BlockLu, AKeptEndDoesNotWidenAChain) {
   const Skeleton s = chain(60, [](int) { return 6; });
@@ -385,6 +415,36 @@ TEST(GuardedBlockLu, Klu2TakesOverAndGoesOnUntilPivotsAreRestored) {
   ASSERT_TRUE(resumed.set_pivots({}));
   ASSERT_TRUE(resumed.factor());
   EXPECT_EQ(solve(resumed, b), by_blocks);
+}
+
+// Whoever factors in the end, what was begun for a right-hand side is finished.
+TEST(GuardedBlockLu, FinishesWhatItBegan) {
+  const Skeleton s = chain(9, [](int) { return 6; });
+  BlockMatrix A(s);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+  const std::span<const double> of_b(b.data(), static_cast<std::size_t>(b.size()));
+  GuardedBlockLu guarded(*A.matrix);
+  const auto finish = [&] {
+    Eigen::VectorXd x = b;
+    guarded.finish({x.data(), static_cast<std::size_t>(x.size())});
+    return x;
+  };
+  ASSERT_TRUE(guarded.factor_for(of_b));
+  const Eigen::VectorXd x = finish();
+  EXPECT_EQ(solve(guarded, b), x);
+  // another solution in between
+  ASSERT_TRUE(guarded.factor_for(of_b));
+  solve(guarded, 2.0 * b);
+  EXPECT_EQ(finish(), x);
+  // other hosts, then KLU2
+  A.values.block(0, 0, 6, 6).setOnes();
+  A.refresh();
+  ASSERT_TRUE(guarded.factor_for(of_b));
+  EXPECT_LT(relative_residual(A.values, finish(), b), 1e-13);
+  ASSERT_TRUE(guarded.factor_anew());
+  ASSERT_TRUE(guarded.factor_for(of_b));
+  EXPECT_TRUE(is_by_klu2(guarded));
+  EXPECT_LT(relative_residual(A.values, finish(), b), 1e-13);
 }
 
 TEST(GuardedBlockLu, SingularMatricesLeaveNoTrace) {

@@ -126,6 +126,26 @@ TEST_P(EachLinearSolver, SolvesUnsymmetricSystemsOnAnyNumberOfRanks) {
   EXPECT_LT(system.difference(solution, x), 1e-12);
 }
 
+// A solution may begin while its matrix is factored; the ones that follow know nothing of it.
+TEST_P(EachLinearSolver, MayBeginASolutionWhileItFactors) {
+  const auto solver = make(GetParam(), system);
+  const Eigen::VectorXd first = Eigen::VectorXd::LinSpaced(system.size(), -1.0, 2.0);
+  const Eigen::VectorXd second = Eigen::VectorXd::LinSpaced(system.size(), 3.0, 1.0);
+  for (const double factor : {1.0, 2.0}) {
+    system.scale_diagonal(factor);
+    Vector x(system.rows()), y(system.rows());
+    const Vector b = system.distribute(system.dense() * first);
+    ASSERT_TRUE(solver->factor_for(b));
+    EXPECT_LT(solver->solve(b, x).size, 1e-12);
+    EXPECT_LT(system.difference(x, first), 1e-10);
+    EXPECT_LT(solver->solve(system.distribute(system.dense() * second), y).size, 1e-12);
+    EXPECT_LT(system.difference(y, second), 1e-10);
+    ASSERT_TRUE(solver->factor());
+    EXPECT_LT(solver->solve(b, y).size, 1e-12);
+    EXPECT_LT(system.difference(y, first), 1e-10);
+  }
+}
+
 TEST_P(EachLinearSolver, KnowsTheDeterminant) {
   for (const int exchanged : {0, 1, 7}) {
     Eigen::MatrixXd dense = band_with_far_entries(31);

@@ -90,6 +90,10 @@ TEST(SubstructuredSolver, SolvesAndKnowsTheDeterminant) {
       Vector found(A.rows);
       EXPECT_TRUE(solver->solve(A.distribute(A.dense * x), found).is_sound());
       EXPECT_LT(A.difference(found, x), 1e-10 / exact.rcond()) << s.name << s.sizes.size();
+      ASSERT_TRUE(solver->factor_for(A.distribute(A.dense * x)));
+      Vector begun(A.rows);
+      EXPECT_TRUE(solver->solve(A.distribute(A.dense * x), begun).is_sound());
+      EXPECT_LT(A.difference(begun, x), 1e-10 / exact.rcond()) << s.name << s.sizes.size();
       const double determinant = exact.determinant();
       EXPECT_EQ(solver->determinant().sign, determinant > 0.0 ? 1 : -1) << s.name;
       EXPECT_NEAR(solver->determinant().log_size, std::log(std::abs(determinant)), 1e-9) << s.name;

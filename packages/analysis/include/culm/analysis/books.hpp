@@ -13,7 +13,8 @@ namespace culm::analysis {
 /// Sums the work of all batches of a system by the accounts that they name (`model::Booked`).
 class Books {
  public:
-  explicit Books(const assembly::System& system);
+  /// @param with_momenta  whether forces and moments are asked for, or work alone
+  Books(const assembly::System& system, bool with_momenta);
 
   /// Books an accepted step from state.prev to state.next; collective.
   /// @return the sum over all accounts
@@ -32,7 +33,7 @@ class Books {
 
  private:
   const assembly::System& system_;
-  std::vector<model::Batch*> batches_;
+  std::vector<model::Batch*> batches_;  ///< that may have something to book
   std::vector<std::string> accounts_;
   std::vector<std::size_t> account_of_;  ///< by batch
   std::vector<model::StepWork> works_;

@@ -5,6 +5,8 @@
 
 #include <Eigen/SparseCore>
 
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace culm::assembly {
@@ -24,6 +26,11 @@ class Pattern {
  private:
   std::shared_ptr<const Stored> stored_;
 };
+
+/// Of each row the first of its columns where they follow each other without a gap, otherwise -1.
+/// It takes the place of all of them where rows are read often and memory sets the pace.
+std::vector<int> first_columns(std::span<const std::size_t> row_begin,
+                               std::span<const int> column_of);
 
 /// Rows of this rank as arrays, one after the other. Columns are numbered on each rank; columns()
 /// tells their global numbers. Copies have values of their own and share the pattern.

@@ -226,6 +226,8 @@ class System {
   const Vector& residual() const { return residual_; }
   /// The tangent, or what was asked for in its place, of the last evaluation.
   const std::shared_ptr<const Matrix>& matrix() const { return matrix_view_; }
+  /// Those of its rows.
+  std::span<const int> first_columns() const { return first_columns_; }
   /// Adds a share of itself to each entry on the diagonal of matrix() that belongs to a force, of
   /// the largest one where there is none, so that motions which nothing resists are resisted a
   /// little. Collective.
@@ -284,6 +286,7 @@ class System {
   std::vector<double> gathered_reactions_;  ///< all
   std::shared_ptr<Matrix> matrix_;
   std::shared_ptr<const Matrix> matrix_view_;
+  std::vector<int> first_columns_;
   Vector residual_;
   std::unique_ptr<ColumnImport> column_import_;
   std::vector<int> diagonal_;  ///< place of the diagonal entry of each owned row

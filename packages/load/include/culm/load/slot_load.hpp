@@ -5,6 +5,7 @@
 #include <culm/model/amplitude.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/booked.hpp>
+#include <culm/model/dead_weight.hpp>
 #include <culm/model/local_items.hpp>
 #include <culm/model/projection.hpp>
 #include <culm/model/structure.hpp>
@@ -20,7 +21,7 @@ namespace culm::load {
 /// Points are linear in the slots, so a dead force F at a point is f0_s = T_s F, and a force
 /// F_k d_k that follows the directors is L = T D^T with D the slot factors of F_k d_k. Both are
 /// taken at q_theta, so the work of dead forces over a step is exact. @source formulation 3, 3.2
-class SlotLoad final : public model::Batch, public model::Booked {
+class SlotLoad final : public model::Batch, public model::Booked, public model::DeadWeight {
  public:
   static constexpr int max_nodes = 4;
 
@@ -50,6 +51,7 @@ class SlotLoad final : public model::Batch, public model::Booked {
   /// -f . q of loads that are constant in time and space, otherwise zero.
   double stored_energy(const model::Coordinates& q) const override;
   model::StepWork step_work(const model::State& state, const Stencil& stencil) const override;
+  bool has_potential() const override;
 
  private:
   struct Item {
@@ -66,14 +68,15 @@ class SlotLoad final : public model::Batch, public model::Booked {
     int node;
     bool turns;         // its directors turn with it
     bool on_directors;  // some forces act there
+    Vec3 force;         // on its position
   };
 
   Item& item_on(const std::vector<int>& nodes);
   // The i-th of those that this rank evaluates.
   const Item& local(std::size_t i) const { return items_.local(placement_.items, i); }
   bool turns(const Item& item) const;
-  bool has_potential() const;
   bool is_free(const Item& item) const;
+  Eigen::Map<const model::NodeSlots> forces_of(const Free& item) const;
   Verdict assemble_free(const Free& item, const model::State& state, const Stencil& stencil,
                         double factor, bool tangent, model::Target& target) const;
   void add_push(const Free& item, const model::State& state, double theta, double factor,

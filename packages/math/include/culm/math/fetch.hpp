@@ -1,0 +1,20 @@
+/// What is needed soon, asked for in time.
+#pragma once
+
+#include <cstddef>
+
+namespace culm {
+
+/// So many numbers ahead of what is read in order memory is worth being asked: processors do so by
+/// themselves, but only up to the end of a page.
+inline constexpr std::size_t numbers_ahead = 1024;
+
+/// Asks the memory for bytes that will be read. They need not exist.
+[[gnu::always_inline]] inline void fetch(const void* from, std::size_t bytes) {
+  constexpr std::size_t line = 64;
+  for (std::size_t at = 0; at < bytes; at += line) {
+    __builtin_prefetch(static_cast<const char*>(from) + at);
+  }
+}
+
+}  // namespace culm
