@@ -95,7 +95,7 @@ bool BlockLu::factor_and_reduce(std::span<const double> x) {
   }
   if (!factor_with_new_hosts()) return false;
   take(x);
-  reduce_taken();
+  for (const BlockPlan::Panel& panel : eliminated()) reduce_by(panel);
   return true;
 }
 
@@ -119,8 +119,10 @@ bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least) {
 bool BlockLu::factor_as_planned(double least, bool reduces) {
   failed_ = nullptr;
   noted_ = 0;
-  const auto eliminates = [&](const auto& panel) { return eliminate(panel, least, reduces); };
-  if (!std::ranges::all_of(eliminated(), eliminates)) return false;
+  for (const BlockPlan::Panel& panel : eliminated()) {
+    if (!eliminate(panel, least)) return false;
+    if (reduces) reduce_by(panel);
+  }
   if (kept_ > 0) fill_before(plan_.panels.back());
   return true;
 }
@@ -310,7 +312,7 @@ double BlockLu::largest_behind_joints(int row) const {
 }
 
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPlan::Panel& panel,
-                                                                   double least, bool reduces) {
+                                                                   double least) {
   if (reads_backward_) fetch_before(panel);
   fill_before(panel);
   if (has_grown(panel)) return false;
@@ -324,9 +326,6 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
     return false;
   }
   update(panel, before(panel).updates);
-  if (reduces) {
-    with_sizes(panel, [&](auto size, auto width) { substitute_forward(panel, size, width); });
-  }
   return true;
 }
 
@@ -342,7 +341,7 @@ std::span<const double> BlockLu::remainder() const {
 
 void BlockLu::reduce(std::span<double> x) {
   take(x);
-  reduce_taken();
+  for (const BlockPlan::Panel& panel : eliminated()) reduce_by(panel);
   put_kept(x);
 }
 
@@ -352,10 +351,9 @@ void BlockLu::take(std::span<const double> x) {
   }
 }
 
-CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::reduce_taken() {
-  for (const BlockPlan::Panel& panel : eliminated()) {
-    with_sizes(panel, [&](auto size, auto width) { substitute_forward(panel, size, width); });
-  }
+// The same code whenever it is called, so that a solution does not depend on it.
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::reduce_by(const BlockPlan::Panel& panel) {
+  with_sizes(panel, [&](auto size, auto width) { substitute_forward(panel, size, width); });
 }
 
 void BlockLu::put_kept(std::span<double> x) const {

@@ -65,9 +65,9 @@ class BlockLu {
   void fetch_before(const BlockPlan::Panel& panel);
   void fill_before(const BlockPlan::Panel& panel);
   double start_at(std::size_t place) const;
-  bool eliminate(const BlockPlan::Panel& panel, double least, bool reduces);
+  bool eliminate(const BlockPlan::Panel& panel, double least);
   void take(std::span<const double> x);
-  void reduce_taken();
+  void reduce_by(const BlockPlan::Panel& panel);
   bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
   double largest_behind_joints(int row) const;
