@@ -16,12 +16,12 @@ bool GuardedBlockLu::factor() {
 }
 
 bool GuardedBlockLu::factor_for(std::span<const double> b) {
-  has_begun_ = false;
   return factor_with([&] { return has_begun_ = blocks_.factor_and_reduce(b); });
 }
 
 template <class FactorBlocks>
 bool GuardedBlockLu::factor_with(const FactorBlocks& factor_blocks) {
+  has_begun_ = false;
   ++factorisations_;
   if (uses_klu2_) return factor_by_klu2(false);
   const bool is_first = blocks_.hosts().empty();

@@ -226,7 +226,7 @@ class System {
   const Vector& residual() const { return residual_; }
   /// The tangent, or what was asked for in its place, of the last evaluation.
   const std::shared_ptr<const Matrix>& matrix() const { return matrix_view_; }
-  /// Those of its rows.
+  /// Of its rows, see assembly::first_columns.
   std::span<const int> first_columns() const { return first_columns_; }
   /// Adds a share of itself to each entry on the diagonal of matrix() that belongs to a force, of
   /// the largest one where there is none, so that motions which nothing resists are resisted a
