@@ -26,7 +26,8 @@ class GuardedBlockLu {
   bool factor();
   /// The same, with the solution for b begun on the way where blocks serve.
   bool factor_for(std::span<const double> b);
-  /// Finishes the solution that factor_for began. @param x  b, in whose place it takes
+  /// The solution that factor_for began, or all of it where it did not. @param x  b, in whose place
+  /// it takes
   void finish(std::span<double> x);
   /// Factors the present values with new pivots of KLU2. @return as factor()
   bool factor_anew();

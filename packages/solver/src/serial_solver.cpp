@@ -30,14 +30,13 @@ class SerialSolver final : public LinearSolver {
   std::string name() const override { return name_; }
 
   bool factor() override {
-    has_solved_ = has_begun_ = false;
+    has_solved_ = false;
     return factors_.factor();
   }
 
   bool factor_for(const Vector& b) override {
     if constexpr (begins_solutions) {
       has_solved_ = false;
-      has_begun_ = true;
       return factors_.factor_for(b.values());
     }
     return factor();
@@ -85,9 +84,10 @@ class SerialSolver final : public LinearSolver {
 
   void apply_inverse(std::span<double> x) {
     if constexpr (begins_solutions) {
-      if (std::exchange(has_begun_, false)) return factors_.finish(x);
+      factors_.finish(x);
+    } else {
+      factors_.solve(x);
     }
-    factors_.solve(x);
   }
 
   double solve_once(std::span<const double> b, std::span<double> x) {
@@ -117,7 +117,6 @@ class SerialSolver final : public LinearSolver {
   std::vector<int> first_columns_;
   std::vector<double> rest_;  // of a solution that is refined
   bool has_solved_ = false;   // with the last factors
-  bool has_begun_ = false;    // the solution that follows
 };
 
 template <class Factors>
