@@ -39,10 +39,10 @@ void add_column(double below, Fill& fill) {
 
 }  // namespace
 
-Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place) {
+Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place, int eliminated) {
   const std::vector<double> below = rows_below(graph, place);
   Fill fill;
-  for (std::size_t v = 0; v < below.size(); ++v) {
+  for (std::size_t v = 0; v < index(eliminated); ++v) {
     for (int i = 0; i < graph.weights[v]; ++i) add_column(below[v] + i, fill);
   }
   return fill;

@@ -59,7 +59,9 @@ std::unique_ptr<LinearSolver> make_block_lu(const std::shared_ptr<const assembly
 std::unique_ptr<LinearSolver> make_wide(const std::shared_ptr<const assembly::Matrix>& matrix,
                                         Ordering ordering, const parallel::Comm& comm) {
   const auto stored = assembly::tpetra(*matrix);
-  if (is_shared(*matrix, comm)) return make_mumps(stored, std::move(ordering), comm);
+  if (is_shared(*matrix, comm)) {
+    return make_shared_mumps(stored, std::move(ordering), comm);
+  }
   const auto alone = [&](const auto& whole, const parallel::Comm& one) {
     return make_mumps(whole, std::move(ordering), one);
   };

@@ -5,8 +5,10 @@
 #include <Teuchos_BLAS.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -23,7 +25,9 @@ enum Control {
   root_on_one_rank = 13,
   workspace_increase = 14,  // per cent of the estimate
   distribution = 18,
+  schur_complement = 19,
   null_pivots = 24,
+  half_of_solution = 26,
   analysis = 28,
   determinant_wanted = 33,
 };
@@ -31,6 +35,7 @@ enum Info {
   status = 1,
   status_detail = 2,
   negative_pivot_count = 12,
+  replaced_pivot_count = 25,
   null_pivot_count = 28,
   determinant_exponent = 34,  // of two
 };
@@ -62,10 +67,28 @@ void hold_buffer_of_blas() {
 Mumps::Mumps(const assembly::CrsMatrix& pattern, Symmetry symmetry, std::vector<int> place,
              const parallel::Comm& comm)
     : symmetry_(symmetry), pivots_(std::move(place)) {
+  start(static_cast<int>(pattern.getGlobalNumRows()), comm);
+  const auto& rows = *pattern.getRowMap();
+  const auto& columns = *pattern.getColMap();
+  take_pattern(
+      pattern, [&](int row) { return rows.getGlobalElement(row); },
+      [&](int column) { return columns.getGlobalElement(column); });
+  if (symmetry == Symmetry::none) sources_ = {};
+}
+
+Mumps::Mumps(const BlockRows& pattern, int kept, Symmetry symmetry, std::vector<int> place)
+    : symmetry_(symmetry), pivots_(std::move(place)) {
+  start(pattern.size(), parallel::Comm(MPI_COMM_SELF));
+  const auto same = [](int number) { return number; };
+  take_pattern(pattern, same, same);
+  if (kept > 0) keep(kept);
+}
+
+void Mumps::start(int rows, const parallel::Comm& comm) {
   [[maybe_unused]] static const bool is_held = (hold_buffer_of_blas(), true);
   constexpr int unsymmetric = 0;
   constexpr int symmetric_indefinite = 2;
-  mumps_.sym = symmetry == Symmetry::symmetric ? symmetric_indefinite : unsymmetric;
+  mumps_.sym = symmetry_ == Symmetry::symmetric ? symmetric_indefinite : unsymmetric;
   mumps_.par = 1;  // the root works as well
   mumps_.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm.handle()));
   run(-1);
@@ -79,27 +102,42 @@ Mumps::Mumps(const assembly::CrsMatrix& pattern, Symmetry symmetry, std::vector<
   control(mumps_, null_pivots) = 1;
   control(mumps_, determinant_wanted) = 1;
   control(mumps_, root_on_one_rank) = 1;  // ScaLAPACK would not report null pivots
+  mumps_.n = rows;
+  for (MUMPS_INT& pivot : pivots_) ++pivot;
+  mumps_.perm_in = pivots_.data();
+}
 
-  const auto graph = pattern.getLocalMatrixHost().graph;
-  for (std::size_t row = 0; row < pattern.getRowMap()->getNodeNumElements(); ++row) {
-    const auto number = pattern.getRowMap()->getGlobalElement(static_cast<int>(row)) + 1;
-    for (auto k = graph.row_map(row); k < graph.row_map(row + 1); ++k) {
-      const auto column = pattern.getColMap()->getGlobalElement(graph.entries(k)) + 1;
-      if (symmetry == Symmetry::symmetric) {
-        if (column > number) continue;
-        lower_.push_back(k);
-      }
+// @param row_number, column_number  in the whole matrix, of a row and a column of the pattern
+template <class RowNumber, class ColumnNumber>
+void Mumps::take_pattern(const BlockRows& pattern, const RowNumber& row_number,
+                         const ColumnNumber& column_number) {
+  for (int row = 0; row < pattern.size(); ++row) {
+    const auto number = row_number(row) + 1;
+    pattern.for_entries(row, [&](int local, std::size_t source) {
+      const auto column = column_number(local) + 1;
+      if (symmetry_ == Symmetry::symmetric && column > number) return;
       rows_.push_back(static_cast<MUMPS_INT>(number));
       columns_.push_back(static_cast<MUMPS_INT>(column));
-    }
+      sources_.push_back(source);
+    });
   }
-  values_.resize(lower_.size());
-  for (MUMPS_INT& pivot : pivots_) ++pivot;
-  mumps_.n = static_cast<MUMPS_INT>(pattern.getGlobalNumRows());
   mumps_.nnz_loc = static_cast<MUMPS_INT8>(rows_.size());
   mumps_.irn_loc = rows_.data();
   mumps_.jcn_loc = columns_.data();
-  mumps_.perm_in = pivots_.data();
+}
+
+void Mumps::keep(int rows) {
+  constexpr int whole_and_by_rows = 1;
+  kept_.resize(static_cast<std::size_t>(rows));
+  std::iota(kept_.begin(), kept_.end(), mumps_.n - rows + 1);
+  remainder_.resize(kept_.size() * kept_.size());
+  reduced_.resize(kept_.size());
+  control(mumps_, schur_complement) = whole_and_by_rows;
+  mumps_.size_schur = rows;
+  mumps_.listvar_schur = kept_.data();
+  mumps_.schur = remainder_.data();
+  mumps_.redrhs = reduced_.data();
+  mumps_.lredrhs = rows;
 }
 
 Mumps::~Mumps() {
@@ -107,18 +145,19 @@ Mumps::~Mumps() {
   dmumps_c(&mumps_);
 }
 
-void Mumps::pass_values(const assembly::CrsMatrix& matrix) {
-  const auto values = matrix.getLocalMatrixHost().values;
-  if (symmetry_ == Symmetry::none) {
+void Mumps::pass_values(const BlockRows& matrix) {
+  if (rows_.empty()) return;
+  if (sources_.empty()) {
     // MUMPS takes the values as non-const but does not change them
-    mumps_.a_loc = const_cast<double*>(values.data());
+    mumps_.a_loc = const_cast<double*>(matrix.values(0));
     return;
   }
-  for (std::size_t k = 0; k < lower_.size(); ++k) values_[k] = values(lower_[k]);
+  values_.resize(sources_.size());
+  for (std::size_t k = 0; k < sources_.size(); ++k) values_[k] = matrix.value(sources_[k]);
   mumps_.a_loc = values_.data();
 }
 
-bool Mumps::factor(const assembly::CrsMatrix& matrix) {
+bool Mumps::factor(const BlockRows& matrix) {
   pass_values(matrix);
   if (!analysed_) run(1);
   if (info(mumps_, status) < 0) throw_error();
@@ -133,7 +172,18 @@ bool Mumps::factor(const assembly::CrsMatrix& matrix) {
   constexpr int singular = -10;
   if (info(mumps_, status) == singular) return false;
   if (info(mumps_, status) < 0) throw_error();
-  return info(mumps_, null_pivot_count) == 0;
+  if (symmetry_ == Symmetry::symmetric) fill_upper_triangle();
+  return info(mumps_, null_pivot_count) == 0 && info(mumps_, replaced_pivot_count) == 0;
+}
+
+// Of what is left, MUMPS gives the lower one only.
+void Mumps::fill_upper_triangle() {
+  const std::size_t n = kept_.size();
+  for (std::size_t row = 0; row < n; ++row) {
+    for (std::size_t column = 0; column < row; ++column) {
+      remainder_[column * n + row] = remainder_[row * n + column];
+    }
+  }
 }
 
 void Mumps::factor_in_workspace() {
@@ -166,6 +216,26 @@ void Mumps::solve(std::span<double> b) {
   mumps_.lrhs = mumps_.n;
   run(3);
   if (info(mumps_, status) < 0) throw_error();
+}
+
+void Mumps::reduce(std::span<double> x) {
+  if (kept_.empty()) return;
+  constexpr int reduction = 1;
+  solve_half(reduction, x);
+  std::ranges::copy(reduced_, x.end() - static_cast<std::ptrdiff_t>(kept_.size()));
+}
+
+void Mumps::extend(std::span<double> x) {
+  if (kept_.empty()) return solve(x);
+  constexpr int extension = 2;
+  std::ranges::copy(x.last(kept_.size()), reduced_.begin());
+  solve_half(extension, x);
+}
+
+void Mumps::solve_half(int half, std::span<double> x) {
+  control(mumps_, half_of_solution) = half;
+  solve(x);
+  control(mumps_, half_of_solution) = 0;
 }
 
 void Mumps::run(int job) {

@@ -2,6 +2,7 @@
 
 #include "matrix_checks.hpp"
 #include "mumps.hpp"
+#include "mumps_parts.hpp"
 #include "residual_check.hpp"
 #include "rooted_vector.hpp"
 #include "symmetry_check.hpp"
@@ -18,11 +19,13 @@ using assembly::tpetra;
 
 class MumpsSolver final : public LinearSolver {
  public:
+  // @param parts  tried first; or none
   MumpsSolver(const Teuchos::RCP<const CrsMatrix>& matrix, Ordering ordering,
-              const parallel::Comm& comm)
+              std::unique_ptr<MumpsParts> parts, const parallel::Comm& comm)
       : matrix_(matrix),
         comm_(comm),
         place_(std::move(ordering.place)),
+        parts_(std::move(parts)),
         symmetry_(matrix),
         rooted_(assembly::rows_of(matrix->getRowMap()), comm),
         whole_(comm.is_root() ? matrix->getGlobalNumRows() : 0),
@@ -36,26 +39,21 @@ class MumpsSolver final : public LinearSolver {
   bool factor() override {
     if (!std::isfinite(size())) return false;
     const Symmetry symmetry = find_symmetry();
-    if (!mumps_ || mumps_->symmetry() != symmetry) {
-      mumps_.reset();
-      mumps_.emplace(*matrix_, symmetry, place_, comm_);
-    }
-    return mumps_->factor(*matrix_);
+    return (parts_ && parts_->factor(symmetry)) || factor_whole(symmetry);
   }
 
   LinearResidual solve(const Vector& b, Vector& x) override {
-    apply_inverse(*mumps_, b, x);
-    // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
-    const auto correct = [&] {
-      apply_inverse(*mumps_, check_.rest(), correction_);
-      x.update(1.0, correction_);
-    };
-    const double achieved = refine(
-        check_(b, x), correct, [&] { return check_(b, x); }, [&] { x.update(-1.0, correction_); });
+    double achieved = solve_refined(b, x);
+    if (parts_ && achieved > largest_residual_of_doubtful_pivots && factor_whole(find_symmetry())) {
+      achieved = solve_refined(b, x);
+    }
     return {achieved};
   }
 
-  Determinant determinant() override { return mumps_ ? mumps_->determinant() : Determinant{}; }
+  Determinant determinant() override {
+    if (parts_) return parts_->determinant();
+    return mumps_ ? mumps_->determinant() : Determinant{};
+  }
 
   double weakest_direction(Vector& v) override {
     v.fill(0.0);
@@ -66,6 +64,11 @@ class MumpsSolver final : public LinearSolver {
     if (!mumps.factor(*shifted)) return 0.0;
     const auto solve = [&](const Vector& b, Vector& x) { apply_inverse(mumps, b, x); };
     return inverse_iteration(*matrix_, solve, v) / largest;
+  }
+
+  std::string remark() const override {
+    if (parts_) return parts_->remark();
+    return has_left_parts_ ? "factors on all ranks together, because parts do not stand alone" : "";
   }
 
  private:
@@ -79,6 +82,37 @@ class MumpsSolver final : public LinearSolver {
                                                                  : Symmetry::none;
   }
 
+  // For good, if it serves: where parts do not stand alone, they will not next time either.
+  bool factor_whole(Symmetry symmetry) {
+    if (!mumps_ || mumps_->symmetry() != symmetry) {
+      mumps_.reset();
+      mumps_.emplace(*matrix_, symmetry, place_, comm_);
+    }
+    if (!mumps_->factor(*matrix_)) {
+      if (parts_) mumps_.reset();
+      return false;
+    }
+    has_left_parts_ |= parts_ != nullptr;
+    parts_.reset();
+    return true;
+  }
+
+  double solve_refined(const Vector& b, Vector& x) {
+    apply_inverse(b, x);
+    // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
+    const auto correct = [&] {
+      apply_inverse(check_.rest(), correction_);
+      x.update(1.0, correction_);
+    };
+    return refine(
+        check_(b, x), correct, [&] { return check_(b, x); }, [&] { x.update(-1.0, correction_); });
+  }
+
+  void apply_inverse(const Vector& b, Vector& x) {
+    if (parts_) return parts_->solve(b, x);
+    apply_inverse(*mumps_, b, x);
+  }
+
   void apply_inverse(Mumps& mumps, const Vector& b, Vector& x) {
     rooted_.gather(b.values(), whole_);
     mumps.solve(whole_);
@@ -88,6 +122,8 @@ class MumpsSolver final : public LinearSolver {
   Teuchos::RCP<const CrsMatrix> matrix_;
   parallel::Comm comm_;
   std::vector<int> place_;
+  std::unique_ptr<MumpsParts> parts_;
+  bool has_left_parts_ = false;
   std::optional<Mumps> mumps_;  // of the symmetry of the last matrix
   SymmetryCheck symmetry_;
   RootedVector rooted_;
@@ -96,11 +132,22 @@ class MumpsSolver final : public LinearSolver {
   Vector correction_;
 };
 
+// A MUMPS on two ranks is 1.65 times faster than on one, not twice (doc/verification/speed.md).
+constexpr double loss_of_sharing = 1.2;
+
 }  // namespace
 
 std::unique_ptr<LinearSolver> make_mumps(const Teuchos::RCP<const CrsMatrix>& matrix,
                                          Ordering ordering, const parallel::Comm& comm) {
-  return std::make_unique<MumpsSolver>(matrix, std::move(ordering), comm);
+  return std::make_unique<MumpsSolver>(matrix, std::move(ordering), nullptr, comm);
+}
+
+std::unique_ptr<LinearSolver> make_shared_mumps(const Teuchos::RCP<const CrsMatrix>& matrix,
+                                                Ordering ordering, const parallel::Comm& comm) {
+  auto parts = std::make_unique<MumpsParts>(matrix, comm);
+  const double share = ordering.fill.operations / static_cast<double>(comm.size());
+  if (parts->operations() > loss_of_sharing * share) parts.reset();
+  return std::make_unique<MumpsSolver>(matrix, std::move(ordering), std::move(parts), comm);
 }
 
 std::unique_ptr<LinearSolver> make_mumps(const std::shared_ptr<const assembly::Matrix>& matrix,

@@ -32,6 +32,20 @@ std::vector<int> place_rows(const parallel::Graph& graph, const std::vector<int>
   return place;
 }
 
+// The graph of the first vertices alone.
+parallel::Graph head(const parallel::Graph& graph, int vertices) {
+  parallel::Graph first;
+  first.weights.assign(graph.weights.begin(), graph.weights.begin() + vertices);
+  for (int v = 0; v < vertices; ++v) {
+    for (int e = graph.begin[index(v)]; e < graph.begin[index(v) + 1]; ++e) {
+      const int other = graph.neighbours[index(e)];
+      if (other < vertices) first.neighbours.push_back(other);
+    }
+    first.begin.push_back(static_cast<int>(first.neighbours.size()));
+  }
+  return first;
+}
+
 }  // namespace
 
 Ordering order_rows(const assembly::CrsMatrix& matrix, const parallel::Comm& comm) {
@@ -48,6 +62,17 @@ Ordering order_rows(const assembly::CrsMatrix& matrix, const parallel::Comm& com
   comm.broadcast(fill);
   ordering.fill = {fill[0], fill[1]};
   return ordering;
+}
+
+Ordering order_rows(const BlockRows& rows, int kept) {
+  const Blocks blocks = find_blocks(rows);
+  const std::vector<int> block_of = block_of_row(blocks);
+  const parallel::Graph graph = couple(blocks, block_of);
+  const int eliminated = kept == 0 ? graph.size() : block_of[block_of.size() - index(kept)];
+  std::vector<int> place_of_block = parallel::dissect(head(graph, eliminated));
+  for (int b = eliminated; b < graph.size(); ++b) place_of_block.push_back(b);
+  return {place_rows(graph, place_of_block, block_of),
+          predict_fill(graph, place_of_block, eliminated)};
 }
 
 Fill predict_fill(const assembly::Matrix& matrix, const parallel::Comm& comm) {

@@ -5,6 +5,8 @@
 #include <culm/parallel/comm.hpp>
 #include <culm/solver/fill.hpp>
 
+#include "block_rows.hpp"
+
 #include <vector>
 
 namespace culm::solver {
@@ -17,5 +19,8 @@ struct Ordering {
 
 /// Collective. Only one row of each block travels to the root.
 Ordering order_rows(const assembly::CrsMatrix& matrix, const parallel::Comm& comm);
+/// Of a matrix on this rank alone. @param kept  rows at the end that are not eliminated; they come
+/// last, and only the others fill
+Ordering order_rows(const BlockRows& rows, int kept);
 
 }  // namespace culm::solver

@@ -9,8 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -72,25 +70,8 @@ class SubstructuredSolver final : public LinearSolver {
 
   Determinant determinant() override {
     if (uses_whole_) return whole().determinant();
-    Determinant mine = piece_.determinant();
-    if (interface_) {
-      const Determinant between = interface_->determinant();
-      mine.sign *= between.sign;
-      mine.log_size += between.log_size;
-      if (mine.negative && between.negative) {
-        *mine.negative += *between.negative;
-      } else {
-        mine.negative.reset();
-      }
-    }
-    std::array<double, 4> sums = {mine.sign < 0 ? 1.0 : 0.0, mine.log_size,
-                                  mine.negative ? 0.0 : 1.0,
-                                  static_cast<double>(mine.negative.value_or(0))};
-    comm_.sum(sums);
-    const auto [odd, log_size, unknown, negative] = sums;
-    Determinant all{std::fmod(odd, 2.0) == 0.0 ? 1 : -1, log_size};
-    if (unknown == 0.0) all.negative = static_cast<int>(negative);
-    return all;
+    return parts_.join(piece_.determinant(),
+                       interface_ ? std::optional(interface_->determinant()) : std::nullopt);
   }
 
   double weakest_direction(Vector& v) override {
@@ -159,8 +140,7 @@ class SubstructuredSolver final : public LinearSolver {
   }
 
   std::string remark() const override {
-    std::string text = fmt::format("factors on {} ranks, {} unknowns between them", comm_.size(),
-                                   parts_.interface_size());
+    std::string text = parts_.remark();
     if (by_whole_ > 0) {
       text += fmt::format("; {} of {} factorisations on one, where parts do not stand alone",
                           by_whole_, factorisations_);
@@ -228,19 +208,15 @@ class SubstructuredSolver final : public LinearSolver {
   }
 
   void apply_inverse(const Vector& b, Vector& x) {
-    if (std::exchange(has_begun_, false)) {
-      piece_.put_kept(x_);
-    } else {
-      parts_.take(b.values(), x_);
-      piece_.reduce(x_);
-    }
-    if (parts_.interface_size() > 0) {
-      parts_.gather(b.values(), x_, interface_x_);
-      if (interface_) interface_->solve(interface_x_);
-      parts_.scatter(interface_x_, x_, x.values());
-    }
-    piece_.extend(x_);
-    parts_.put(x_, x.values());
+    const auto reduce = [&](std::span<double> piece) {
+      if (std::exchange(has_begun_, false)) return piece_.put_kept(piece);
+      parts_.take(b.values(), piece);
+      piece_.reduce(piece);
+    };
+    parts_.solve(
+        b.values(), x.values(), x_, interface_x_, reduce,
+        [&](std::span<double> whole) { interface_->solve(whole); },
+        [&](std::span<double> piece) { piece_.extend(piece); });
   }
 
   void gather_hosts() {

@@ -6,9 +6,11 @@
 #include "serial_matrix.hpp"
 
 #include <Teuchos_Array.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 namespace culm::solver {
@@ -58,10 +60,14 @@ std::span<double> values_of(const CrsMatrix& matrix) {
 
 }  // namespace
 
-Substructures::Substructures(Teuchos::RCP<const CrsMatrix> matrix, const parallel::Comm& comm)
+Substructures::Substructures(Teuchos::RCP<const CrsMatrix> matrix, const parallel::Comm& comm,
+                             int widest)
     : matrix_(std::move(matrix)), local_(matrix_->getLocalMatrixHost()), comm_(comm) {
   const std::vector<int> owners = owners_of_columns();
   const std::vector<bool> is_interface = find_interface(owners);
+  find_rows(is_interface);
+  interface_size_ = static_cast<int>(comm.sum(static_cast<double>(boundary_.size())));
+  if (interface_size_ > widest) return;
   build_piece(owners, is_interface);
   build_interface(is_interface);
 }
@@ -115,22 +121,28 @@ std::vector<bool> Substructures::find_interface(const std::vector<int>& owners) 
   return {values.begin(), values.end()};
 }
 
-void Substructures::build_piece(const std::vector<int>& owners,
-                                const std::vector<bool>& is_interface) {
+// Of this rank, those of the interface and those of the interior.
+void Substructures::find_rows(const std::vector<bool>& is_interface) {
   const auto& rows = *matrix_->getRowMap();
   const auto& columns = *matrix_->getColMap();
-  std::vector<int>& interior = piece_.rows;
-  std::vector<int>& place = piece_.place;
-  place.assign(owners.size(), -1);
+  piece_.place.assign(is_interface.size(), -1);
   for (int row = 0; row < static_cast<int>(rows.getNodeNumElements()); ++row) {
     const std::size_t column = index(columns.getLocalElement(rows.getGlobalElement(row)));
     if (is_interface[column]) {
       boundary_.push_back(row);
     } else {
-      place[column] = static_cast<int>(interior.size());
-      interior.push_back(row);
+      piece_.place[column] = static_cast<int>(piece_.rows.size());
+      piece_.rows.push_back(row);
     }
   }
+}
+
+void Substructures::build_piece(const std::vector<int>& owners,
+                                const std::vector<bool>& is_interface) {
+  const auto& rows = *matrix_->getRowMap();
+  const auto& columns = *matrix_->getColMap();
+  const std::vector<int>& interior = piece_.rows;
+  std::vector<int>& place = piece_.place;
   std::vector<int> kept;  // local columns
   for (int row : interior) {
     for_entries(row, [&](int column, std::size_t) {
@@ -213,7 +225,6 @@ void Substructures::build_interface(const std::vector<bool>& is_interface) {
   const auto all_kept = comm_.gather(std::span<const long long>(kept_));
   const auto all_boundary = comm_.gather(std::span<const long long>(boundary));
   const auto all_entries = comm_.gather(std::span<const long long>(entries));
-  interface_size_ = comm_.max(static_cast<int>(all_boundary.size()));
   if (!comm_.is_root()) return;
 
   std::vector<long long> numbers = all_boundary;
@@ -274,6 +285,32 @@ void Substructures::gather_interface(std::span<const double> remainder) {
   const std::span<double> to = values_of(*interface_);
   std::ranges::fill(to, 0.0);
   for (std::size_t k = 0; k < value_place_.size(); ++k) to[value_place_[k]] += all_[k];
+}
+
+Determinant Substructures::join(Determinant piece,
+                                const std::optional<Determinant>& interface) const {
+  if (interface) {
+    piece.sign *= interface->sign;
+    piece.log_size += interface->log_size;
+    if (piece.negative && interface->negative) {
+      *piece.negative += *interface->negative;
+    } else {
+      piece.negative.reset();
+    }
+  }
+  std::array<double, 4> sums = {piece.sign < 0 ? 1.0 : 0.0, piece.log_size,
+                                piece.negative ? 0.0 : 1.0,
+                                static_cast<double>(piece.negative.value_or(0))};
+  comm_.sum(sums);
+  const auto [odd, log_size, unknown, negative] = sums;
+  Determinant all{std::fmod(odd, 2.0) == 0.0 ? 1 : -1, log_size};
+  if (unknown == 0.0) all.negative = static_cast<int>(negative);
+  return all;
+}
+
+std::string Substructures::remark() const {
+  return fmt::format("factors on {} ranks, {} unknowns between them", comm_.size(),
+                     interface_size_);
 }
 
 void Substructures::take(std::span<const double> b, std::span<double> piece) const {

@@ -4,11 +4,15 @@
 
 #include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
+#include <culm/solver/linear_solver.hpp>
 
 #include "block_rows.hpp"
 #include "exchange.hpp"
 
+#include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,7 +28,9 @@ namespace culm::solver {
 /// be symmetric. @source J. S. Przemieniecki, Matrix structural analysis of substructures, 1963
 class Substructures {
  public:
-  Substructures(Teuchos::RCP<const assembly::CrsMatrix> matrix, const parallel::Comm& comm);
+  /// @param widest  unknowns of the interface; if there are more, that is all there is to know
+  Substructures(Teuchos::RCP<const assembly::CrsMatrix> matrix, const parallel::Comm& comm,
+                int widest = std::numeric_limits<int>::max());
   Substructures(const Substructures&) = delete;
   Substructures& operator=(const Substructures&) = delete;
 
@@ -42,23 +48,45 @@ class Substructures {
   void gather_values();
   /// Puts S together. @param remainder  of this rank, -A_BI A_II^-1 A_IB, row by row
   void gather_interface(std::span<const double> remainder);
+  /// x = A^-1 b. @param piece  room for the unknowns of the piece @param interface  for those of
+  /// the interface, on the root only @param reduce  eliminates the interior of a piece, whose
+  /// unknowns are those of b (see `take`) @param solve_interface  on the root, S^-1 of its argument
+  /// @param extend  finds the interior with the rest of the piece known
+  template <class Reduce, class Solve, class Extend>
+  void solve(std::span<const double> b, std::span<double> x, std::span<double> piece,
+             std::span<double> interface, const Reduce& reduce, const Solve& solve_interface,
+             const Extend& extend) {
+    reduce(piece);
+    if (interface_size_ > 0) {
+      gather(b, piece, interface);
+      if (comm_.is_root()) solve_interface(interface);
+      scatter(interface, piece, x);
+    }
+    extend(piece);
+    put(piece, x);
+  }
+  /// Of the matrix, from those of the pieces and, on the root, of S.
+  Determinant join(Determinant piece, const std::optional<Determinant>& interface) const;
+  /// For reports: into how many pieces the matrix was cut, and what is between them.
+  std::string remark() const;
   /// The unknowns of the piece take part of a right-hand side: those of the interior theirs, the
   /// others zero.
   void take(std::span<const double> b, std::span<double> piece) const;
-  /// The right-hand side of S. @param piece  after the interior was eliminated @param whole on the
-  /// root only
-  void gather(std::span<const double> b, std::span<const double> piece, std::span<double> whole);
-  /// The solution of S to the ends of the pieces and to the rows of the interface.
-  void scatter(std::span<const double> whole, std::span<double> piece, std::span<double> x);
-  /// The interior to its rows.
-  void put(std::span<const double> piece, std::span<double> x) const;
 
  private:
+  // The right-hand side of S. @param piece  after the interior was eliminated @param whole on the
+  // root only
+  void gather(std::span<const double> b, std::span<const double> piece, std::span<double> whole);
+  // The solution of S to the ends of the pieces and to the rows of the interface.
+  void scatter(std::span<const double> whole, std::span<double> piece, std::span<double> x);
+  // The interior to its rows.
+  void put(std::span<const double> piece, std::span<double> x) const;
   template <class Visit>
   void for_entries(int row, const Visit& visit) const;
   std::size_t find_entry(long long row, long long column) const;
   std::vector<int> owners_of_columns() const;
   std::vector<bool> find_interface(const std::vector<int>& owners) const;
+  void find_rows(const std::vector<bool>& is_interface);
   void build_piece(const std::vector<int>& owners, const std::vector<bool>& is_interface);
   void build_interface(const std::vector<bool>& is_interface);
 

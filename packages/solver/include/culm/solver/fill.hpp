@@ -20,8 +20,12 @@ struct Fill {
 
 /// Fill without pivoting of a matrix of dense blocks. The vertices of the graph are the blocks,
 /// their weights the rows of each. @param place of each vertex in the order of elimination
+/// @param eliminated  of the vertices, the first ones; the others are kept
 /// @source J. W. H. Liu, The role of elimination trees in sparse factorization, 1990
-Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place);
+Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place, int eliminated);
+inline Fill predict_fill(const parallel::Graph& graph, const std::vector<int>& place) {
+  return predict_fill(graph, place, graph.size());
+}
 /// The same of a matrix in the order that MUMPS takes, nested dissection. Collective.
 Fill predict_fill(const assembly::Matrix& matrix, const parallel::Comm& comm);
 /// The same from above, for an order that nobody had to find: rows as they stand, rank after rank,
