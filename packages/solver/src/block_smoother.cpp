@@ -57,6 +57,7 @@ void BlockSmoother::add_modes(const std::vector<bool>& carried, const parallel::
 }
 
 void BlockSmoother::refresh() {
+  grid_.rows().round(rounded_);
   for (int node = 0; node < grid_.nodes(); ++node) {
     const int width = grid_.width(node);
     const auto columns = grid_.rows().columns(node);
@@ -86,6 +87,12 @@ void BlockSmoother::precondition(const Vector& r, Vector& z) {
   for (int node = 0; node < grid_.nodes(); ++node) {
     const int width = grid_.width(node);
     const int first = grid_.first_column(node);
+    if (width == 6) {
+      Eigen::Map<Vec6>(to.data() + first).noalias() =
+          Eigen::Map<const RowMat<6, 6>>(this->inverse(node)) *
+          Eigen::Map<const Vec6>(from.data() + first);
+      continue;
+    }
     const Eigen::Map<const RowMajor> inverse(this->inverse(node), width, width);
     Eigen::Map<Eigen::VectorXd>(to.data() + first, width).noalias() =
         inverse * Eigen::Map<const Eigen::VectorXd>(from.data() + first, width);
@@ -141,14 +148,19 @@ void BlockSmoother::smooth(const Vector& b, Vector& x) {
   step_.scale(1.0 / centre);
   x = step_;
   for (int k = 1; k < degree; ++k) {
-    grid_.multiply(step_, product_);
-    rest_.update(-1.0, product_);
+    find_rest();
     precondition(rest_, product_);
     const double next = 1.0 / (2.0 * sigma - rho);
     step_.update(2.0 * next / radius, product_, next * rho);
     x.update(1.0, step_);
     rho = next;
   }
+}
+
+const Vector& BlockSmoother::find_rest() {
+  grid_.multiply(rounded_, step_, product_);
+  rest_.update(-1.0, product_);
+  return rest_;
 }
 
 }  // namespace culm::solver

@@ -33,6 +33,8 @@ class BlockSmoother {
   double largest_eigenvalue() const { return largest_; }
   /// x from an x = 0, for A x = b. Collective.
   void smooth(const assembly::Vector& b, assembly::Vector& x);
+  /// b - A x after that. Collective; once.
+  const assembly::Vector& find_rest();
 
  private:
   double find_largest();
@@ -41,6 +43,7 @@ class BlockSmoother {
   const GridLevel& grid_;
   std::vector<std::size_t> first_;
   std::vector<double> inverse_;
+  std::vector<float> rounded_;  // the matrix; enough for steps, which are not smooth
   std::vector<bool> leaves_;
   std::optional<PatchModes> modes_;
   double largest_ = 1.0;  // of D^-1 A

@@ -30,15 +30,15 @@ GridLevel::GridLevel(Teuchos::RCP<const assembly::CrsMatrix> matrix, const std::
     node_of_.resize(node_of_.size() + static_cast<std::size_t>(width(node)), node);
   const auto importer = matrix_->getGraph()->getImporter();
   if (importer.is_null()) return;
-  Vector columns(assembly::rows_of(matrix_->getColMap()));
+  columns_.emplace(assembly::rows_of(matrix_->getColMap()));
   Vector number(assembly::rows_of(matrix_->getRowMap()));
   const auto here = number.values();
   const auto rank = static_cast<std::size_t>(comm.rank());
   for (std::size_t row = 0; row < here.size(); ++row) {
     here[row] = static_cast<double>(begin_[rank] + node_of_[row]);  // exact below 2^53
   }
-  tpetra(columns).doImport(tpetra(number), *importer, Tpetra::INSERT);
-  const auto all = std::as_const(columns).values();
+  tpetra(*columns_).doImport(tpetra(number), *importer, Tpetra::INSERT);
+  const auto all = std::as_const(*columns_).values();
   for (std::size_t column = here.size(); column < all.size(); ++column) {
     const auto node = static_cast<long long>(all[column]);
     if (beside_.empty() || beside_.back() != node) {
@@ -66,6 +66,21 @@ std::vector<bool> GridLevel::share(const std::vector<bool>& marks) const {
   return all;
 }
 
-void GridLevel::multiply(const Vector& x, Vector& y) const { matrix_->apply(tpetra(x), tpetra(y)); }
+std::span<const double> GridLevel::of_all_columns(const Vector& x) const {
+  const auto importer = matrix_->getGraph()->getImporter();
+  if (importer.is_null()) return x.values();
+  tpetra(*columns_).doImport(tpetra(x), *importer, Tpetra::INSERT);
+  return std::as_const(*columns_).values();
+}
+
+// By nodes, which have one list of columns for all their rows: Tpetra reads a column for each
+// value.
+void GridLevel::multiply(const Vector& x, Vector& y) const {
+  rows_.multiply(of_all_columns(x), y.values());
+}
+
+void GridLevel::multiply(std::span<const float> rounded, const Vector& x, Vector& y) const {
+  rows_.multiply(rounded, of_all_columns(x), y.values());
+}
 
 }  // namespace culm::solver

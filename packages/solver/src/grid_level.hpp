@@ -6,6 +6,8 @@
 
 #include "grouped_matrix.hpp"
 
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace culm::solver {
@@ -42,8 +44,13 @@ class GridLevel {
   std::vector<bool> share(const std::vector<bool>& marks) const;
   /// y = A x; collective.
   void multiply(const assembly::Vector& x, assembly::Vector& y) const;
+  /// The same with rounded values of `rows`.
+  void multiply(std::span<const float> rounded, const assembly::Vector& x,
+                assembly::Vector& y) const;
 
  private:
+  std::span<const double> of_all_columns(const assembly::Vector& x) const;
+
   Teuchos::RCP<const assembly::CrsMatrix> matrix_;
   GroupedMatrix rows_;
   NearNullSpace rigid_;
@@ -51,6 +58,7 @@ class GridLevel {
   std::vector<int> node_of_;
   std::vector<long long> beside_;
   std::vector<long long> begin_;
+  mutable std::optional<assembly::Vector> columns_;  ///< room of a product; on several ranks
 };
 
 }  // namespace culm::solver

@@ -29,14 +29,27 @@ class GroupedMatrix {
 
   /// y = A x. @param x values of all local columns
   void multiply(std::span<const double> x, std::span<double> y) const;
+  /// The same with values that `round` left: half of the memory traffic.
+  void multiply(std::span<const float> rounded, std::span<const double> x,
+                std::span<double> y) const;
+  /// The present values to single precision.
+  void round(std::vector<float>& rounded) const;
+  /// y += A^T A x, with one look at each value. @param x, y  of all local columns
+  void add_projection(std::span<const double> x, std::span<double> y) const;
   /// x += A^T y.
   void add_transposed(std::span<const double> y, std::span<double> x) const;
 
  private:
+  void gather(int group, std::span<const double> x, std::vector<double>& gathered) const;
+  const double* all_values() const;
+  template <class Number>
+  void multiply_by(const Number* all, std::span<const double> x, std::span<double> y) const;
+
   std::vector<int> first_row_{0};
   std::vector<std::size_t> first_column_{0};
   std::vector<std::size_t> first_value_;
   std::vector<int> columns_;
+  std::size_t widest_ = 0;  ///< columns of a group
   std::vector<double> own_values_;
   const double* borrowed_values_ = nullptr;
 };

@@ -5,6 +5,8 @@
 #include <culm/math/vector_units.hpp>
 #include <culm/mechanics/pack.hpp>
 
+#include "sum_of_lanes.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -21,14 +23,6 @@ struct RowSum {
   double products = 0.0;
   double sizes = 0.0;
 };
-
-[[gnu::always_inline]] inline double sum_of_lanes(const Pack& pack) {
-  Pack a = pack;
-  a += __builtin_shufflevector(a, a, 4, 5, 6, 7, 0, 1, 2, 3);
-  a += __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5);
-  a += __builtin_shufflevector(a, a, 1, 0, 3, 2, 5, 4, 7, 6);
-  return a[0];
-}
 
 // At least pack_lanes columns that stand side by side.
 [[gnu::always_inline]] inline RowSum multiply(const double* row, const double* x,

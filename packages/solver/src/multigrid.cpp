@@ -138,10 +138,8 @@ void Multigrid::cycle(std::size_t level, const Vector& b, Vector& x) {
   }
   Level& l = *levels_[level];
   l.smoother.smooth(b, x);
-  l.grid.multiply(x, l.rest);
-  l.rest.update(1.0, b, -1.0);
   l.coarse_columns->fill(0.0);
-  l.prolongation.add_transposed(l.rest.values(), l.coarse_columns->values());
+  l.prolongation.add_transposed(l.smoother.find_rest().values(), l.coarse_columns->values());
   const auto importer = l.next->getGraph()->getImporter();
   if (importer.is_null()) {
     l.coarse_rhs = l.coarse_columns;

@@ -177,6 +177,7 @@ PatchModes::PatchModes(const GridLevel& grid, const std::vector<bool>& carried,
                        const parallel::Comm& comm)
     : grid_(grid),
       columns_(assembly::rows_of(grid.matrix()->getColMap())),
+      sums_(columns_.rows()),
       sum_(assembly::rows_of(grid.matrix()->getRowMap())) {
   const Couplings couplings(grid, comm);
   const std::vector<bool> left_out = grid.share(carried);
@@ -202,7 +203,6 @@ PatchModes::PatchModes(const GridLevel& grid, const std::vector<bool>& carried,
   }
   count_ = static_cast<long long>(comm.sum(static_cast<double>(first_row.back())));
   if (count_ == 0) return;
-  shares_.resize(index(first_row.back()));
   columns.shrink_to_fit();
   values.shrink_to_fit();
   modes_ = {std::move(first_row), std::move(first_column), std::move(columns), std::move(values)};
@@ -210,17 +210,12 @@ PatchModes::PatchModes(const GridLevel& grid, const std::vector<bool>& carried,
 
 void PatchModes::add(const assembly::Vector& r, assembly::Vector& z) {
   const auto importer = grid_.matrix()->getGraph()->getImporter();
-  if (importer.is_null()) {
-    modes_.multiply(r.values(), shares_);
-    modes_.add_transposed(shares_, z.values());
-    return;
-  }
+  if (importer.is_null()) return modes_.add_projection(r.values(), z.values());
   tpetra(columns_).doImport(tpetra(r), *importer, Tpetra::INSERT);
-  modes_.multiply(std::as_const(columns_).values(), shares_);
-  columns_.fill(0.0);
-  modes_.add_transposed(shares_, columns_.values());
+  sums_.fill(0.0);
+  modes_.add_projection(std::as_const(columns_).values(), sums_.values());
   sum_.fill(0.0);
-  tpetra(sum_).doExport(tpetra(columns_), *importer, Tpetra::ADD);
+  tpetra(sum_).doExport(tpetra(sums_), *importer, Tpetra::ADD);
   z.update(1.0, sum_);
 }
 

@@ -30,9 +30,9 @@ class PatchModes {
  private:
   const GridLevel& grid_;
   GroupedMatrix modes_;  // a row for each, with v^T A v = 1, over the columns of the matrix
-  std::vector<double> shares_;
   long long count_ = 0;
-  assembly::Vector columns_, sum_;
+  assembly::Vector columns_, sums_;  // of all local columns
+  assembly::Vector sum_;
 };
 
 }  // namespace culm::solver
