@@ -205,13 +205,13 @@ class IterativeSolver final : public LinearSolver {
       if (std::isfinite(correction_.norm())) {
         x.update(1.0, correction_);
         relative = check_(b, x);
-        left = &check_.rest();
+        left = &check_.rest(b, x);
         rest = left->norm();
       }
       if (rest > before) {
         x.update(-1.0, correction_);
         relative = check_(b, x);
-        left = &check_.rest();
+        left = &check_.rest(b, x);
         rest = left->norm();
       }
       if (is_reached()) break;

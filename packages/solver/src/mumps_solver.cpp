@@ -29,8 +29,7 @@ class MumpsSolver final : public LinearSolver {
         symmetry_(matrix),
         rooted_(assembly::rows_of(matrix->getRowMap()), comm),
         whole_(comm.is_root() ? matrix->getGlobalNumRows() : 0),
-        check_(matrix, comm),
-        correction_(assembly::rows_of(matrix->getRowMap())) {}
+        check_(matrix, comm) {}
 
   std::string name() const override { return "MUMPS"; }
 
@@ -101,11 +100,12 @@ class MumpsSolver final : public LinearSolver {
     apply_inverse(b, x);
     // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
     const auto correct = [&] {
-      apply_inverse(check_.rest(), correction_);
-      x.update(1.0, correction_);
+      if (!correction_) correction_.emplace(b.rows());
+      apply_inverse(check_.rest(b, x), *correction_);
+      x.update(1.0, *correction_);
     };
     return refine(
-        check_(b, x), correct, [&] { return check_(b, x); }, [&] { x.update(-1.0, correction_); });
+        check_(b, x), correct, [&] { return check_(b, x); }, [&] { x.update(-1.0, *correction_); });
   }
 
   void apply_inverse(const Vector& b, Vector& x) {
@@ -129,7 +129,7 @@ class MumpsSolver final : public LinearSolver {
   RootedVector rooted_;
   std::vector<double> whole_;  // a vector in global order, on the root
   ResidualCheck check_;
-  Vector correction_;
+  std::optional<Vector> correction_;  // where solutions are refined
 };
 
 // A MUMPS on two ranks is 1.65 times faster than on one, not twice (doc/verification/speed.md).

@@ -1,7 +1,5 @@
 #include "residual_check.hpp"
 
-#include "matrix_checks.hpp"
-
 #include <array>
 #include <utility>
 
@@ -12,20 +10,29 @@ ResidualCheck::ResidualCheck(Teuchos::RCP<const assembly::CrsMatrix> matrix,
     : matrix_(std::move(matrix)),
       comm_(comm),
       first_columns_(first_columns(*matrix_)),
-      columns_(assembly::rows_of(matrix_->getColMap())),
-      rest_(assembly::rows_of(matrix_->getRowMap())) {}
+      columns_(assembly::rows_of(matrix_->getColMap())) {}
 
 double ResidualCheck::operator()(const assembly::Vector& b, const assembly::Vector& x) {
+  const Residual mine = find(b, x, {});
+  std::array<double, 2> joint = {mine.largest, mine.size};
+  comm_.max(joint);
+  return Residual{joint[0], joint[1]}.relative();
+}
+
+const assembly::Vector& ResidualCheck::rest(const assembly::Vector& b, const assembly::Vector& x) {
+  if (!rest_) rest_.emplace(b.rows());
+  find(b, x, rest_->values());
+  return *rest_;
+}
+
+Residual ResidualCheck::find(const assembly::Vector& b, const assembly::Vector& x,
+                             std::span<double> rest) {
   const auto importer = matrix_->getGraph()->getImporter();
   if (!importer.is_null()) {
     assembly::tpetra(columns_).doImport(assembly::tpetra(x), *importer, Tpetra::INSERT);
   }
   const assembly::Vector& all = importer.is_null() ? x : columns_;
-  const Residual mine =
-      residual(*matrix_, first_columns_, all.values(), b.values(), rest_.values());
-  std::array<double, 2> joint = {mine.largest, mine.size};
-  comm_.max(joint);
-  return Residual{joint[0], joint[1]}.relative();
+  return residual(*matrix_, first_columns_, all.values(), b.values(), rest);
 }
 
 }  // namespace culm::solver

@@ -4,6 +4,10 @@
 #include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
 
+#include "matrix_checks.hpp"
+
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace culm::solver {
@@ -15,15 +19,17 @@ class ResidualCheck {
 
   /// The relative residual of A x = b, see `Residual`. Collective, the same on all ranks.
   double operator()(const assembly::Vector& b, const assembly::Vector& x);
-  /// b - A x of the last call.
-  const assembly::Vector& rest() const { return rest_; }
+  /// b - A x, until the next call. Collective.
+  const assembly::Vector& rest(const assembly::Vector& b, const assembly::Vector& x);
 
  private:
+  Residual find(const assembly::Vector& b, const assembly::Vector& x, std::span<double> rest);
+
   Teuchos::RCP<const assembly::CrsMatrix> matrix_;
   parallel::Comm comm_;
   std::vector<int> first_columns_;
-  assembly::Vector columns_;  // values of all local columns
-  assembly::Vector rest_;
+  assembly::Vector columns_;              // values of all local columns
+  std::optional<assembly::Vector> rest_;  // most solutions are never refined
 };
 
 }  // namespace culm::solver

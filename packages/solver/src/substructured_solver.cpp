@@ -29,8 +29,7 @@ class SubstructuredSolver final : public LinearSolver {
         parts_(matrix, comm),
         piece_(parts_.piece(), parts_.kept()),
         x_(static_cast<std::size_t>(parts_.piece().size()), 0.0),
-        check_(matrix, comm),
-        correction_(assembly::rows_of(matrix->getRowMap())) {
+        check_(matrix, comm) {
     if (parts_.interface_size() > 0 && comm_.is_root()) {
       interface_.emplace(parts_.interface());
       interface_x_.resize(parts_.interface().getNodeNumRows());
@@ -58,11 +57,12 @@ class SubstructuredSolver final : public LinearSolver {
     double achieved = check_(b, x);
     if (achieved > largest_without_refinement) {
       const auto correct = [&] {
-        apply_inverse(check_.rest(), correction_);
-        x.update(1.0, correction_);
+        if (!correction_) correction_.emplace(b.rows());
+        apply_inverse(check_.rest(b, x), *correction_);
+        x.update(1.0, *correction_);
       };
       achieved = refine(
-          achieved, correct, [&] { return check_(b, x); }, [&] { x.update(-1.0, correction_); });
+          achieved, correct, [&] { return check_(b, x); }, [&] { x.update(-1.0, *correction_); });
     }
     if (achieved <= largest_residual_of_doubtful_pivots) return {achieved};
     return factor_whole() ? whole().solve(b, x) : LinearResidual{achieved};
@@ -266,7 +266,7 @@ class SubstructuredSolver final : public LinearSolver {
   std::optional<GuardedBlockLu> interface_;  // on the root, if there is one
   std::vector<double> interface_x_;
   ResidualCheck check_;
-  Vector correction_;
+  std::optional<Vector> correction_;     // where solutions are refined
   std::unique_ptr<LinearSolver> whole_;  // made when it is needed
   bool uses_whole_ = false;
   std::vector<int> all_hosts_;  // of all pieces; on the root
