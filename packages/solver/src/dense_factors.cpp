@@ -4,7 +4,6 @@
 
 #include <Teuchos_LAPACK.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 // Teuchos::LAPACK does not have these.
@@ -30,17 +29,15 @@ void add_pivots(double product, int negative, Determinant& determinant) {
 
 }  // namespace
 
-bool DenseFactors::factor(const assembly::CrsMatrix& matrix, Symmetry symmetry) {
-  symmetry_ = symmetry;
-  n_ = static_cast<int>(matrix.getNodeNumRows());
+std::span<double> DenseFactors::start(int size) {
+  n_ = size;
   factors_.assign(column(n_), 0.0);
   pivots_.resize(index(n_));
-  const auto local = matrix.getLocalMatrixHost();
-  for (int row = 0; row < n_; ++row) {
-    for (auto k = local.graph.row_map(index(row)); k < local.graph.row_map(index(row) + 1); ++k) {
-      factors_[column(local.graph.entries(k)) + index(row)] = local.values(k);
-    }
-  }
+  return factors_;
+}
+
+bool DenseFactors::factor(Symmetry symmetry) {
+  symmetry_ = symmetry;
   int info = 0;
   if (symmetry == Symmetry::symmetric) {
     room_.resize(index(n_ * widest_block));
@@ -58,7 +55,7 @@ void DenseFactors::solve(std::span<double> b) const {
   if (symmetry_ == Symmetry::symmetric) {
     dsytrs_(&lower, &n_, &columns, factors_.data(), &n_, pivots_.data(), b.data(), &n_, &info);
   } else {
-    Teuchos::LAPACK<int, double>().GETRS('N', n_, columns, factors_.data(), n_, pivots_.data(),
+    Teuchos::LAPACK<int, double>().GETRS('T', n_, columns, factors_.data(), n_, pivots_.data(),
                                          b.data(), n_, &info);
   }
 }

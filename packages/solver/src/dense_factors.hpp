@@ -1,7 +1,6 @@
 /// Factors of one dense matrix, by LAPACK.
 #pragma once
 
-#include <culm/assembly/tpetra.hpp>
 #include <culm/solver/linear_solver.hpp>
 
 #include "symmetry.hpp"
@@ -16,9 +15,10 @@ namespace culm::solver {
 /// symmetric linear systems, 1977
 class DenseFactors {
  public:
-  /// Factors a matrix on this rank, whose pattern may leave zeros out. @return false if a pivot is
-  /// zero
-  bool factor(const assembly::CrsMatrix& matrix, Symmetry symmetry);
+  /// Where the next matrix goes, row by row; zeros. @param size  rows and columns
+  std::span<double> start(int size);
+  /// Factors what was put there. @return false if a pivot is zero
+  bool factor(Symmetry symmetry);
   /// Replaces b by A^-1 b.
   void solve(std::span<double> b) const;
   /// Of the matrix that was factored last.
@@ -29,7 +29,7 @@ class DenseFactors {
 
   int n_ = 0;
   Symmetry symmetry_ = Symmetry::none;
-  std::vector<double> factors_;  ///< column by column
+  std::vector<double> factors_;  ///< of the transposed matrix, as LAPACK goes column by column
   std::vector<int> pivots_;
   std::vector<double> room_;
 };

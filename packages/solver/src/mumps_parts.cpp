@@ -10,8 +10,8 @@ using assembly::CrsMatrix;
 
 namespace {
 
-// Dense on the root, with what travels and where that goes: 40 B for each entry.
-constexpr int widest_interface = 1500;
+// A dense matrix and, on each rank, a share of it that travels, all on the root.
+constexpr int widest_interface = 1200;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ bool MumpsParts::factor(Symmetry symmetry) {
   if (comm_.max(is_sound ? 0 : 1) != 0) return false;
   if (parts_.interface_size() == 0) return true;
   parts_.gather_interface(piece_ ? piece_->remainder() : std::span<const double>());
-  if (comm_.is_root()) is_sound = interface_.factor(parts_.interface(), symmetry);
+  if (comm_.is_root()) is_sound = factor_interface(symmetry);
   return comm_.max(is_sound ? 0 : 1) == 0;
 }
 
@@ -43,6 +43,16 @@ bool MumpsParts::factor_piece(Symmetry symmetry) {
     piece_.emplace(parts_.piece(), parts_.kept(), symmetry, order_.place);
   }
   return piece_->factor(parts_.piece());
+}
+
+bool MumpsParts::factor_interface(Symmetry symmetry) {
+  const std::span<double> dense = interface_.start(parts_.interface_size());
+  const std::span<const double> gathered = parts_.of_interface();
+  parts_.for_interface([&](int row, int column, std::size_t number) {
+    const auto place = static_cast<std::size_t>(row) * interface_x_.size();
+    dense[place + static_cast<std::size_t>(column)] += gathered[number];
+  });
+  return interface_.factor(symmetry);
 }
 
 void MumpsParts::solve(const Vector& b, Vector& x) {

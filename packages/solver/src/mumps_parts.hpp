@@ -42,6 +42,7 @@ class MumpsParts {
 
  private:
   bool factor_piece(Symmetry symmetry);
+  bool factor_interface(Symmetry symmetry);
 
   parallel::Comm comm_;
   Substructures parts_;

@@ -4,6 +4,7 @@
 #include "guarded_block_lu.hpp"
 #include "matrix_checks.hpp"
 #include "residual_check.hpp"
+#include "sparse_interface.hpp"
 #include "substructures.hpp"
 
 #include <fmt/format.h>
@@ -31,8 +32,9 @@ class SubstructuredSolver final : public LinearSolver {
         x_(static_cast<std::size_t>(parts_.piece().size()), 0.0),
         check_(matrix, comm) {
     if (parts_.interface_size() > 0 && comm_.is_root()) {
-      interface_.emplace(parts_.interface());
-      interface_x_.resize(parts_.interface().getNodeNumRows());
+      between_.emplace(parts_);
+      interface_.emplace(between_->matrix());
+      interface_x_.resize(between_->matrix().getNodeNumRows());
     }
   }
 
@@ -185,6 +187,7 @@ class SubstructuredSolver final : public LinearSolver {
     if (comm_.max(is_new ? 1 : 0) != 0) gather_hosts();
     if (parts_.interface_size() == 0) return true;
     parts_.gather_interface(piece_.remainder());
+    if (between_) between_->fill(parts_);
     return comm_.max(!interface_ || interface_->factor() ? 0 : 1) == 0;
   }
 
@@ -263,6 +266,7 @@ class SubstructuredSolver final : public LinearSolver {
   BlockLu piece_;
   std::vector<double> x_;                    // of the piece
   bool has_begun_ = false;                   // the solution that follows
+  std::optional<SparseInterface> between_;   // on the root, if there is an interface
   std::optional<GuardedBlockLu> interface_;  // on the root, if there is one
   std::vector<double> interface_x_;
   ResidualCheck check_;

@@ -3,7 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/math/types.hpp>
 
-#include "serial_matrix.hpp"
+#include "serial_rows.hpp"
 
 #include <Teuchos_Array.hpp>
 #include <fmt/format.h>
@@ -21,37 +21,6 @@ using assembly::GlobalIndex;
 using assembly::Vector;
 
 constexpr const char* symmetric_pattern = "substructures need a symmetric pattern";
-
-// An entry of a matrix that is put together, and where its value comes from.
-struct Entry {
-  int column = 0;
-  std::size_t source = 0;  // as the caller counts
-};
-using Lists = std::vector<std::vector<Entry>>;  // by row
-
-// A serial matrix, row after row.
-class Rows {
- public:
-  // Entries that are listed several times stand there once. @param visit (source, place)
-  template <class Visit>
-  void add(std::vector<Entry>& row, const Visit& visit) {
-    std::ranges::stable_sort(row, {}, &Entry::column);
-    for (const Entry& entry : row) {
-      if (columns_.size() == begin_.back() || columns_.back() != entry.column) {
-        columns_.push_back(entry.column);
-      }
-      visit(entry.source, columns_.size() - 1);
-    }
-    begin_.push_back(columns_.size());
-  }
-  const std::vector<std::size_t>& begin() const { return begin_; }
-  const std::vector<int>& columns() const { return columns_; }
-  Teuchos::RCP<CrsMatrix> make_matrix() const { return make_serial_matrix(begin_, columns_); }
-
- private:
-  std::vector<std::size_t> begin_{0};
-  std::vector<int> columns_;
-};
 
 std::span<double> values_of(const CrsMatrix& matrix) {
   const auto values = matrix.getLocalMatrixHost().values;
@@ -179,7 +148,7 @@ void Substructures::build_piece(const std::vector<int>& owners,
     });
   }
   std::vector<int> place_of_wanted(owner_of_wanted.size());
-  Rows added;
+  SerialRows added;
   for (std::vector<Entry>& row : rows_below) {
     added.add(row, [&](std::size_t source, std::size_t to) {
       if (source >= from_others) {
@@ -232,32 +201,18 @@ void Substructures::build_interface(const std::vector<bool>& is_interface) {
   const auto place = [&](long long number) {
     return static_cast<int>(std::ranges::lower_bound(numbers, number) - numbers.begin());
   };
-  Lists lists(numbers.size());
-  std::size_t source = 0;  // in the order in which values are gathered
   auto kept = all_kept.begin();
   auto bound = all_boundary.begin();
   auto entry = all_entries.begin();
   for (std::size_t k = 0; k < counts.size(); k += 3) {
-    const std::span<const long long> clique(kept, kept + counts[k]);
-    for (long long row : clique) {
-      for (long long column : clique) {
-        lists[index(place(row))].push_back({place(column), source++});
-      }
-    }
+    Share& share = shares_.emplace_back();
+    for (int i = 0; i < counts[k]; ++i) share.kept.push_back(place(*kept++));
     for (int i = 0; i < counts[k + 2]; ++i, entry += 2) {
-      lists[index(place(entry[0]))].push_back({place(entry[1]), source++});
+      share.entries.emplace_back(place(entry[0]), place(entry[1]));
     }
-    for (long long row : clique) row_place_.push_back(place(row));
-    for (int i = 0; i < counts[k + 1]; ++i) row_place_.push_back(place(bound[i]));
-    kept += counts[k];
-    bound += counts[k + 1];
+    row_place_.insert(row_place_.end(), share.kept.begin(), share.kept.end());
+    for (int i = 0; i < counts[k + 1]; ++i) row_place_.push_back(place(*bound++));
   }
-  value_place_.resize(source);
-  Rows built;
-  for (std::vector<Entry>& row : lists) {
-    built.add(row, [&](std::size_t from, std::size_t to) { value_place_[from] = to; });
-  }
-  interface_ = built.make_matrix();
 }
 
 void Substructures::gather_values() {
@@ -277,14 +232,10 @@ void Substructures::gather_values() {
 
 void Substructures::gather_interface(std::span<const double> remainder) {
   const std::span<const double> from = values_of(*matrix_);
-  mine_.assign(remainder.begin(), remainder.end());
-  for (std::size_t k : interface_values_) mine_.push_back(from[k]);
-  all_.resize(index(value_funnel_.total()));
-  value_funnel_.gather(mine_, all_);
-  if (!comm_.is_root()) return;
-  const std::span<double> to = values_of(*interface_);
-  std::ranges::fill(to, 0.0);
-  for (std::size_t k = 0; k < value_place_.size(); ++k) to[value_place_[k]] += all_[k];
+  mine_of_interface_.assign(remainder.begin(), remainder.end());
+  for (std::size_t k : interface_values_) mine_of_interface_.push_back(from[k]);
+  of_interface_.resize(index(value_funnel_.total()));
+  value_funnel_.gather(mine_of_interface_, of_interface_);
 }
 
 Determinant Substructures::join(Determinant piece,

@@ -39,15 +39,27 @@ class Substructures {
   BlockRows piece() const { return {*matrix_, piece_}; }
   /// Unknowns at its end that are of the interface.
   int kept() const { return static_cast<int>(kept_.size()); }
-  /// S; on the root only.
-  const assembly::CrsMatrix& interface() const { return *interface_; }
   /// Unknowns of the interface; on all ranks.
   int interface_size() const { return interface_size_; }
 
   /// Brings the present values of A_BI to the pieces. Collective, as all that follows.
   void gather_values();
-  /// Puts S together. @param remainder  of this rank, -A_BI A_II^-1 A_IB, row by row
+  /// Gathers what S is made of. @param remainder  of this rank, -A_BI A_II^-1 A_IB, row by row
   void gather_interface(std::span<const double> remainder);
+  /// Calls visit(row, column, number) for it, always in the same order, on the root. What is at the
+  /// same place adds up.
+  template <class Visit>
+  void for_interface(const Visit& visit) const {
+    std::size_t number = 0;
+    for (const Share& share : shares_) {
+      for (int row : share.kept) {
+        for (int column : share.kept) visit(row, column, number++);
+      }
+      for (const auto& [row, column] : share.entries) visit(row, column, number++);
+    }
+  }
+  /// What was gathered last, by number; on the root.
+  std::span<const double> of_interface() const { return of_interface_; }
   /// x = A^-1 b. @param piece  room for the unknowns of the piece @param interface  for those of
   /// the interface, on the root only @param reduce  eliminates the interior of a piece, whose
   /// unknowns are those of b (see `take`) @param solve_interface  on the root, S^-1 of its argument
@@ -81,6 +93,12 @@ class Substructures {
   void scatter(std::span<const double> whole, std::span<double> piece, std::span<double> x);
   // The interior to its rows.
   void put(std::span<const double> piece, std::span<double> x) const;
+  // What a rank has of S.
+  struct Share {
+    std::vector<int> kept;                     // places of the unknowns that it kept
+    std::vector<std::pair<int, int>> entries;  // of the matrix: rows and columns
+  };
+
   template <class Visit>
   void for_entries(int row, const Visit& visit) const;
   std::size_t find_entry(long long row, long long column) const;
@@ -98,15 +116,15 @@ class Substructures {
   int interface_size_ = 0;
   PartOfRows piece_;
   std::vector<std::pair<std::size_t, std::size_t>> values_here_;  ///< of the matrix, to the piece
-  ByRank<int> values_out_;  ///< values of the matrix that other ranks need
-  ByRank<int> values_in_;   ///< places in the piece of what they send
-  Teuchos::RCP<assembly::CrsMatrix> interface_;
-  std::vector<std::size_t> interface_values_;  ///< those of the matrix between its unknowns
+  ByRank<int> values_out_;                     ///< values of the matrix that other ranks need
+  ByRank<int> values_in_;                      ///< places in the piece of what they send
+  std::vector<std::size_t> interface_values_;  ///< of the matrix, between unknowns of the interface
+  std::vector<Share> shares_;                  ///< of each rank; on the root
   parallel::Funnel value_funnel_;
-  std::vector<std::size_t> value_place_;  ///< of each gathered value in S; on the root
-  parallel::Funnel row_funnel_;           ///< kept unknowns, then own rows of the interface
-  std::vector<int> row_place_;            ///< of each gathered row in S; on the root
-  std::vector<double> mine_, all_;        ///< what travels
+  std::vector<double> mine_of_interface_, of_interface_;
+  parallel::Funnel row_funnel_;     ///< kept unknowns, then own rows of the interface
+  std::vector<int> row_place_;      ///< of each gathered row in S; on the root
+  std::vector<double> mine_, all_;  ///< what travels
 };
 
 }  // namespace culm::solver

@@ -1,13 +1,11 @@
 #include "../src/dense_factors.hpp"
 
-#include "../src/serial_matrix.hpp"
-
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <vector>
+#include <span>
 
 namespace culm::solver {
 namespace {
@@ -23,21 +21,11 @@ Eigen::MatrixXd indefinite(int size) {
   return A;
 }
 
-Teuchos::RCP<assembly::CrsMatrix> stored(const Eigen::MatrixXd& dense) {
-  const auto size = static_cast<std::size_t>(dense.rows());
-  std::vector<std::size_t> begin{0};
-  std::vector<int> columns;
-  for (std::size_t row = 0; row < size; ++row) {
-    for (std::size_t column = 0; column < size; ++column)
-      columns.push_back(static_cast<int>(column));
-    begin.push_back(columns.size());
-  }
-  auto matrix = make_serial_matrix(begin, columns);
-  const auto values = matrix->getLocalMatrixHost().values;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    values(k) = dense(static_cast<int>(k / size), columns[k]);
-  }
-  return matrix;
+bool factor(DenseFactors& factors, const Eigen::MatrixXd& A, Symmetry symmetry) {
+  const std::span<double> room = factors.start(static_cast<int>(A.rows()));
+  const Eigen::MatrixXd by_rows = A.transpose();
+  std::copy_n(by_rows.data(), by_rows.size(), room.data());
+  return factors.factor(symmetry);
 }
 
 TEST(DenseFactors, SolveAndKnowTheDeterminant) {
@@ -46,7 +34,7 @@ TEST(DenseFactors, SolveAndKnowTheDeterminant) {
       Eigen::MatrixXd A = indefinite(size) + Eigen::MatrixXd::Identity(size, size);
       if (symmetry == Symmetry::none) A(0, size - 1) += 2.0;
       DenseFactors factors;
-      ASSERT_TRUE(factors.factor(*stored(A), symmetry));
+      ASSERT_TRUE(factor(factors, A, symmetry));
       const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(size, -1.0, 2.0);
       Eigen::VectorXd found = A * x;
       factors.solve({found.data(), static_cast<std::size_t>(size)});
@@ -70,8 +58,8 @@ TEST(DenseFactors, ZeroPivotsAreNoticed) {
   A(3, 3) = 0.0;
   for (const Symmetry symmetry : {Symmetry::symmetric, Symmetry::none}) {
     DenseFactors factors;
-    EXPECT_FALSE(factors.factor(*stored(A), symmetry));
-    EXPECT_TRUE(factors.factor(*stored(indefinite(6)), symmetry));
+    EXPECT_FALSE(factor(factors, A, symmetry));
+    EXPECT_TRUE(factor(factors, indefinite(6), symmetry));
   }
 }
 
