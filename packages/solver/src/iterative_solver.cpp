@@ -204,14 +204,14 @@ class IterativeSolver final : public LinearSolver {
       const double before = rest;
       if (std::isfinite(correction_.norm())) {
         x.update(1.0, correction_);
-        relative = check_(b, x);
-        left = &check_.rest(b, x);
+        relative = check_.keep_rest(b, x);
+        left = &check_.rest();
         rest = left->norm();
       }
       if (rest > before) {
         x.update(-1.0, correction_);
-        relative = check_(b, x);
-        left = &check_.rest(b, x);
+        relative = check_.keep_rest(b, x);
+        left = &check_.rest();
         rest = left->norm();
       }
       if (is_reached()) break;

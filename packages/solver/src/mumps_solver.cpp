@@ -101,7 +101,8 @@ class MumpsSolver final : public LinearSolver {
     // Pivots are chosen inside a front only, so one step of refinement may be worth its cost.
     const auto correct = [&] {
       if (!correction_) correction_.emplace(b.rows());
-      apply_inverse(check_.rest(b, x), *correction_);
+      check_.keep_rest(b, x);
+      apply_inverse(check_.rest(), *correction_);
       x.update(1.0, *correction_);
     };
     return refine(

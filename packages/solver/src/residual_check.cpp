@@ -13,26 +13,25 @@ ResidualCheck::ResidualCheck(Teuchos::RCP<const assembly::CrsMatrix> matrix,
       columns_(assembly::rows_of(matrix_->getColMap())) {}
 
 double ResidualCheck::operator()(const assembly::Vector& b, const assembly::Vector& x) {
-  const Residual mine = find(b, x, {});
-  std::array<double, 2> joint = {mine.largest, mine.size};
-  comm_.max(joint);
-  return Residual{joint[0], joint[1]}.relative();
+  return find(b, x, {});
 }
 
-const assembly::Vector& ResidualCheck::rest(const assembly::Vector& b, const assembly::Vector& x) {
+double ResidualCheck::keep_rest(const assembly::Vector& b, const assembly::Vector& x) {
   if (!rest_) rest_.emplace(b.rows());
-  find(b, x, rest_->values());
-  return *rest_;
+  return find(b, x, rest_->values());
 }
 
-Residual ResidualCheck::find(const assembly::Vector& b, const assembly::Vector& x,
-                             std::span<double> rest) {
+double ResidualCheck::find(const assembly::Vector& b, const assembly::Vector& x,
+                           std::span<double> rest) {
   const auto importer = matrix_->getGraph()->getImporter();
   if (!importer.is_null()) {
     assembly::tpetra(columns_).doImport(assembly::tpetra(x), *importer, Tpetra::INSERT);
   }
   const assembly::Vector& all = importer.is_null() ? x : columns_;
-  return residual(*matrix_, first_columns_, all.values(), b.values(), rest);
+  const Residual mine = residual(*matrix_, first_columns_, all.values(), b.values(), rest);
+  std::array<double, 2> joint = {mine.largest, mine.size};
+  comm_.max(joint);
+  return Residual{joint[0], joint[1]}.relative();
 }
 
 }  // namespace culm::solver

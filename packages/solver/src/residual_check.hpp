@@ -19,11 +19,13 @@ class ResidualCheck {
 
   /// The relative residual of A x = b, see `Residual`. Collective, the same on all ranks.
   double operator()(const assembly::Vector& b, const assembly::Vector& x);
-  /// b - A x, until the next call. Collective.
-  const assembly::Vector& rest(const assembly::Vector& b, const assembly::Vector& x);
+  /// The same, and leaves b - A x in rest().
+  double keep_rest(const assembly::Vector& b, const assembly::Vector& x);
+  /// @pre keep_rest was called
+  const assembly::Vector& rest() const { return *rest_; }
 
  private:
-  Residual find(const assembly::Vector& b, const assembly::Vector& x, std::span<double> rest);
+  double find(const assembly::Vector& b, const assembly::Vector& x, std::span<double> rest);
 
   Teuchos::RCP<const assembly::CrsMatrix> matrix_;
   parallel::Comm comm_;

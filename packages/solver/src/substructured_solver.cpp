@@ -60,7 +60,8 @@ class SubstructuredSolver final : public LinearSolver {
     if (achieved > largest_without_refinement) {
       const auto correct = [&] {
         if (!correction_) correction_.emplace(b.rows());
-        apply_inverse(check_.rest(b, x), *correction_);
+        check_.keep_rest(b, x);
+        apply_inverse(check_.rest(), *correction_);
         x.update(1.0, *correction_);
       };
       achieved = refine(
