@@ -18,6 +18,17 @@ namespace culm::solver {
 template <int size>
 using Fixed = std::integral_constant<int, size>;
 
+/// A known count is moved in vectors.
+template <int count>
+[[gnu::always_inline]] inline void copy_numbers(const double* from, Fixed<count>, double* to) {
+  Row<count> numbers;
+  numbers.load(from);
+  numbers.store(to);
+}
+[[gnu::always_inline]] inline void copy_numbers(const double* from, int count, double* to) {
+  std::copy_n(from, count, to);
+}
+
 /// The diagonal is a pivot as long as it is so large beside the entries below, because eliminating
 /// with the diagonal does not depend on how rows are scaled.
 constexpr double preferred_pivot = 1e-3;

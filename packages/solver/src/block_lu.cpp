@@ -6,6 +6,7 @@
 #include "block_hosts.hpp"
 #include "block_kernels.hpp"
 #include "blocks.hpp"
+#include "past_cache.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +34,6 @@ constexpr double rest_of_rounding = 512.0 * std::numeric_limits<double>::epsilon
 // Where there is a choice, a pivot keeps more of what has been on the diagonal. Long beams that are
 // held at one end have smaller ones, whatever the choice.
 constexpr double good_pivot = 1e-6;
-
-// Factors with more numbers come from memory, and not from a cache.
-constexpr std::size_t cached_values = std::size_t{1} << 20;
 
 // What takes a fixed size where it can: the unknowns of a node, and those of a body with the forces
 // of a ball joint.
@@ -121,7 +119,9 @@ bool BlockLu::factor_as_planned(double least, bool reduces) {
   noted_ = 0;
   for (const BlockPlan::Panel& panel : eliminated()) {
     if (!eliminate(panel, least)) return false;
-    if (reduces) reduce_by(panel);
+    if (reduces) {
+      reduce_by(panel, bench() + panel.pivot, panel.stride(), bench() + panel.below);
+    }
   }
   if (kept_ > 0) fill_before(plan_.panels.back());
   return true;
@@ -163,10 +163,13 @@ bool BlockLu::set_hosts(std::span<const int> host) {
 
 void BlockLu::plan() {
   plan_ = plan_blocks(rows_, host_, first_kept_);
-  reads_backward_ = plan_.num_values > cached_values &&
-                    plan_.copies.front().source > plan_.copies[plan_.copies.size() / 2].source;
+  reads_backward_ = has_bench() && plan_.copies.front().source > plan_.copies[plan_.copies.size() / 2].source;
   const std::size_t rows = plan_.unknown.size();
-  values_.assign(plan_.num_values + numbers_behind, 0.0);
+  const auto resize = [](std::vector<Packs<1>>& packs, std::size_t numbers) {
+    packs.assign((numbers + pack_lanes - 1) / pack_lanes, Packs<1>());
+  };
+  resize(bench_, has_bench() ? plan_.bench_size + numbers_behind : 0);
+  resize(factors_, plan_.num_values + numbers_behind);
   before_.assign(rows, 0.0);
   exchanged_.assign(rows, 0);
   x_.assign(rows, 0.0);
@@ -216,20 +219,21 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
 
 // Brings from the matrix what the elimination of a panel is the first to need.
 [[gnu::always_inline]] inline void BlockLu::fill_before(const BlockPlan::Panel& panel) {
-  const auto copy_rows = [&](const BlockPlan::Copy& c, auto columns) {
+  const auto copy_rows = [&](const BlockPlan::Copy& c, auto columns)
+                             __attribute__((always_inline)) {
     const double* source = rows_.values(c.source);
-    double* target = values_.data() + c.target;
+    double* target = bench() + c.target;
     for (int i = 0; i < c.rows; ++i, source += c.source_stride, target += c.target_stride) {
-      for (int k = 0; k < columns; ++k) target[k] = source[k];
+      copy_numbers(source, columns, target);
     }
   };
   const BlockPlan::Panel done = before(panel);
   for (std::size_t k = done.gaps; k < panel.gaps; ++k) {
-    std::fill_n(values_.data() + plan_.gaps[k].target, plan_.gaps[k].size, 0.0);
+    std::fill_n(bench() + plan_.gaps[k].target, plan_.gaps[k].size, 0.0);
   }
   for (std::size_t k = done.copies; k < panel.copies; ++k) {
     const BlockPlan::Copy& c = plan_.copies[k];
-    with_few(c.columns, [&](auto columns) { copy_rows(c, columns); });
+    with_few(c.columns, [&](auto columns) __attribute__((always_inline)) { copy_rows(c, columns); });
   }
 }
 
@@ -244,7 +248,7 @@ bool BlockLu::has_grown(const BlockPlan::Panel& panel) {
   const std::size_t first = index(panel.first);
   noted_ = first + index(panel.size);
   for (std::size_t place = first; place < noted_; ++place) before_[place] = start_at(place);
-  const double* entry = values_.data() + panel.pivot;
+  const double* entry = bench() + panel.pivot;
   for (int i = 0; i < panel.size; ++i, entry += panel.stride() + 1) {
     const std::size_t place = index(panel.first + i);
     const double now = std::abs(*entry);
@@ -292,7 +296,7 @@ double BlockLu::largest_behind_joints(int row) const {
 
 [[gnu::always_inline]] inline void BlockLu::update(const BlockPlan::Panel& panel,
                                                    std::size_t from) {
-  double* v = values_.data();
+  double* v = bench();
   const int stride = panel.stride();
   for (std::size_t k = from; k < panel.updates; ++k) {
     const BlockPlan::Update& u = plan_.updates[k];
@@ -317,7 +321,7 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
   fill_before(panel);
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
-    return factor_panel(values_.data() + panel.pivot, size, width, before_.data() + panel.first,
+    return factor_panel(bench() + panel.pivot, size, width, before_.data() + panel.first,
                         least, exchanged_.data() + panel.first, row_weight_.data(),
                         room_.data()->numbers);
   });
@@ -326,7 +330,40 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
     return false;
   }
   update(panel, before(panel).updates);
+  if (has_bench()) {
+    with_sizes(panel, [&](auto size, auto width) { put_away(panel, size, width); });
+  }
   return true;
+}
+
+// From the bench to the factors.
+template <class Size, class Width>
+[[gnu::always_inline]] inline void BlockLu::put_away(const BlockPlan::Panel& panel, Size size,
+                                                     Width width) {
+  const double* rows = bench() + panel.pivot;
+  double* V = factors() + panel.V;
+  double* D = factors() + panel.D;
+  const auto put = [&](const auto& copy) __attribute__((always_inline)) {
+    for (int r = 0; r < size; ++r) copy(rows + r * (size + width) + size, width, V + r * width);
+    for (int r = 0; r < size; ++r) copy(rows + r * (size + width), size, D + r * size);
+    for (int r = 0; r < width; ++r) {
+      copy(bench() + panel.below + r * size, size, D + (size + r) * size);
+    }
+  };
+  if (size % 2 != 0 || width % 2 != 0) {
+    return put([](const double* from, auto count, double* to)
+                   __attribute__((always_inline)) { copy_numbers(from, count, to); });
+  }
+  put([](const double* from, auto count, double* to)
+          __attribute__((always_inline)) { copy_past_cache(from, count, to); });
+  // lines go to memory at once where all of them is written
+  constexpr double nothing[pack_lanes] = {};
+  const auto fill_line = [&](int count, double* to) {
+    const auto end = static_cast<int>(whole_lines(index(count)));
+    copy_past_cache(nothing, end - count, to + count);
+  };
+  fill_line(size * width, V);
+  fill_line(size * (size + width), D);
 }
 
 void BlockLu::solve(std::span<double> x) {
@@ -336,7 +373,7 @@ void BlockLu::solve(std::span<double> x) {
 
 std::span<const double> BlockLu::remainder() const {
   if (kept_ == 0) return {};
-  return std::span(values_).subspan(plan_.panels.back().pivot, index(kept_) * index(kept_));
+  return {bench() + plan_.panels.back().pivot, index(kept_) * index(kept_)};
 }
 
 void BlockLu::reduce(std::span<double> x) {
@@ -351,9 +388,17 @@ void BlockLu::take(std::span<const double> x) {
   }
 }
 
+void BlockLu::reduce_by(const BlockPlan::Panel& panel) {
+  reduce_by(panel, factors() + panel.D, stride_of_D(panel), factors() + panel.L);
+}
+
 // The same code whenever it is called, so that a solution does not depend on it.
-CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::reduce_by(const BlockPlan::Panel& panel) {
-  with_sizes(panel, [&](auto size, auto width) { substitute_forward(panel, size, width); });
+CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::reduce_by(const BlockPlan::Panel& panel,
+                                                                   const double* D, int stride,
+                                                                   const double* L) {
+  with_sizes(panel, [&](auto size, auto width) {
+    substitute_forward(panel, size, width, D, stride, L);
+  });
 }
 
 void BlockLu::put_kept(std::span<double> x) const {
@@ -378,10 +423,9 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::extend(std::span<double
 
 // With known sizes the block is solved in registers.
 template <class Size, class Width>
-void BlockLu::substitute_forward(const BlockPlan::Panel& panel, Size size, Width width) {
+void BlockLu::substitute_forward(const BlockPlan::Panel& panel, Size size, Width width,
+                                 const double* D, int stride, const double* L) {
   double* x = x_.data() + panel.first;
-  const double* D = values_.data() + panel.pivot;
-  const double* L = values_.data() + panel.below;
   const int* beside = plan_.beside.data() + panel.beside;
   exchange_rows({exchanged_.data() + panel.first, index(panel.size)}, x);
   const auto subtract_from_beside = [&](const double* solved) __attribute__((always_inline)) {
@@ -392,12 +436,12 @@ void BlockLu::substitute_forward(const BlockPlan::Panel& panel, Size size, Width
     }
   };
   if constexpr (std::is_same_v<Size, int>) {
-    solve_block(D, size + width, size, x);
+    solve_block(D, stride, size, x);
     subtract_from_beside(x);
   } else {
     double solved[Size::value];
     std::copy_n(x, Size::value, solved);
-    solve_block(D, size + width, size, solved);
+    solve_block(D, stride, size, solved);
     std::copy_n(solved, Size::value, x);
     subtract_from_beside(solved);
   }
@@ -407,8 +451,8 @@ template <class Size, class Width>
 void BlockLu::substitute_back(const BlockPlan::Panel& panel, Size size, Width width) {
   const int* beside = plan_.beside.data() + panel.beside;
   for (int k = 0; k < width; ++k) beside_[index(k)] = x_[index(beside[k])];
-  subtract_product(values_.data() + panel.pivot + size, size + width, beside_.data(),
-                   x_.data() + panel.first, size, width);
+  subtract_product(factors() + panel.V, stride_of_V(panel), beside_.data(), x_.data() + panel.first, size,
+                   width);
 }
 
 // Rows and columns are in the same order, so that only exchanges inside blocks change the sign.
@@ -419,7 +463,7 @@ Determinant BlockLu::determinant() const {
   int negative = 0, exchanges = 0;
   for (const BlockPlan::Panel& panel : eliminated()) {
     for (int i = 0; i < panel.size; ++i) {
-      const double reciprocal = values_[panel.pivot + index(i) * index(panel.stride() + 1)];
+      const double reciprocal = factors()[panel.D + index(i) * index(stride_of_D(panel) + 1)];
       if (reciprocal < 0.0) ++negative;
       if (exchanged_[index(panel.first + i)] != i) ++exchanges;
       d.log_size -= std::log(std::abs(reciprocal));

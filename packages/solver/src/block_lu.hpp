@@ -56,6 +56,19 @@ class BlockLu {
   bool set_hosts(std::span<const int> host);
 
  private:
+  static double* numbers_of(std::vector<Packs<1>>& packs) {
+    return reinterpret_cast<double*>(packs.data());
+  }
+  static const double* numbers_of(const std::vector<Packs<1>>& packs) {
+    return reinterpret_cast<const double*>(packs.data());
+  }
+  bool has_bench() const { return plan_.bench_size > 0; }
+  double* bench() { return numbers_of(has_bench() ? bench_ : factors_); }
+  const double* bench() const { return numbers_of(has_bench() ? bench_ : factors_); }
+  double* factors() { return numbers_of(factors_); }
+  const double* factors() const { return numbers_of(factors_); }
+  int stride_of_D(const BlockPlan::Panel& p) const { return has_bench() ? p.size : p.stride(); }
+  int stride_of_V(const BlockPlan::Panel& p) const { return has_bench() ? p.width : p.stride(); }
   bool factor_and_merge(const std::vector<int>& hosts, double least);
   bool factor_as_planned(double least, bool reduces = false);
   bool merge_failed();
@@ -67,13 +80,17 @@ class BlockLu {
   double start_at(std::size_t place) const;
   bool eliminate(const BlockPlan::Panel& panel, double least);
   void take(std::span<const double> x);
+  template <class Size, class Width>
+  void put_away(const BlockPlan::Panel& panel, Size size, Width width);
   void reduce_by(const BlockPlan::Panel& panel);
+  void reduce_by(const BlockPlan::Panel& panel, const double* D, int stride, const double* L);
   bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
   double largest_behind_joints(int row) const;
   void update(const BlockPlan::Panel& panel, std::size_t from);
   template <class Size, class Width>
-  void substitute_forward(const BlockPlan::Panel& panel, Size size, Width width);
+  void substitute_forward(const BlockPlan::Panel& panel, Size size, Width width, const double* D,
+                          int stride, const double* L);
   template <class Size, class Width>
   void substitute_back(const BlockPlan::Panel& panel, Size size, Width width);
 
@@ -87,8 +104,9 @@ class BlockLu {
   const BlockPlan::Panel* failed_ = nullptr;  ///< whose pivots are nothing but rounding
   std::vector<std::size_t> diagonal_;         ///< by place: source of its entry; `none`
   std::vector<int> place_;                    ///< of each row
-  bool reads_backward_ = false;  ///< the matrix, and factors come from memory, not from a cache
-  std::vector<double> values_;
+  bool reads_backward_ = false;  ///< the matrix, which does not stay in the cache
+  std::vector<Packs<1>> bench_;      ///< where panels are made, see BlockPlan
+  std::vector<Packs<1>> factors_;
   std::vector<double> before_;      ///< by place: largest size of the diagonal so far
   std::size_t noted_ = 0;           ///< places that `before_` knows
   std::vector<int> exchanged_;      ///< by place: the row of the block it was exchanged with

@@ -6,11 +6,16 @@
 #include "elimination_groups.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace culm::solver {
 namespace {
 
+// More numbers come from memory, and not from a cache.
+constexpr std::size_t cached_values = std::size_t{1} << 20;
+
+// Until all is listed, panels stand side by side, and every number has a place of its own.
 class Planner {
  public:
   Planner(const BlockRows& rows, const std::vector<int>& host, int first_kept)
@@ -26,7 +31,15 @@ class Planner {
     list_copies();
     list_updates();
     find_gaps();
+    find_need();
     fill_when_needed();
+    if (end_ <= cached_values) {
+      stay();
+      return;
+    }
+    const bool keeps = first_kept < static_cast<int>(blocks_.sizes.size());
+    place_factors(plan_.panels.size() - (keeps ? 1 : 0));
+    move_to_bench();
   }
   BlockPlan take() { return std::move(plan_); }
 
@@ -89,9 +102,9 @@ class Planner {
       }
       panel.width += blocks_.sizes[index(block)];
     }
-    panel.pivot = plan_.num_values;
+    panel.pivot = end_;
     panel.below = panel.pivot + index(panel.size) * index(panel.stride());
-    plan_.num_values = panel.below + index(panel.width) * index(panel.size);
+    end_ = panel.below + index(panel.width) * index(panel.size);
     plan_.panels.push_back(panel);
   }
 
@@ -163,7 +176,8 @@ class Planner {
           const int columns = blocks_.sizes[index(column_block)];
           BlockPlan::Update* last = plan_.updates.size() > first ? &plan_.updates.back() : nullptr;
           if (last != nullptr && last->target + index(last->columns) == target.at &&
-              last->stride == target.stride) {
+              last->stride == target.stride &&
+              panel_of(last->target) == panel_of(target.at)) {
             last->columns += columns;
           } else {
             plan_.updates.push_back({below, beside, target.at, target.stride,
@@ -178,7 +192,7 @@ class Planner {
   }
 
   void find_gaps() {
-    std::vector<bool> is_filled(plan_.num_values, false);
+    std::vector<bool> is_filled(end_, false);
     for (const BlockPlan::Copy& copy : plan_.copies) {
       for (int i = 0; i < copy.rows; ++i) {
         const std::size_t first = copy.target + index(i) * index(copy.target_stride);
@@ -197,27 +211,27 @@ class Planner {
 
   // Of the values of a panel.
   std::size_t end_of(std::size_t panel) const {
-    return panel + 1 < plan_.panels.size() ? plan_.panels[panel + 1].pivot : plan_.num_values;
+    return panel + 1 < plan_.panels.size() ? plan_.panels[panel + 1].pivot : end_;
+  }
+
+  // By which panel each is first updated; by itself if by none.
+  void find_need() {
+    needed_by_.resize(plan_.panels.size());
+    std::iota(needed_by_.begin(), needed_by_.end(), std::size_t{0});
+    std::size_t k = 0;
+    for (std::size_t g = 0; g < plan_.panels.size(); ++g) {
+      for (; k < plan_.panels[g].updates; ++k) {
+        std::size_t& first = needed_by_[panel_of(plan_.updates[k].target)];
+        first = std::min(first, g);
+      }
+    }
   }
 
   // A panel is filled before it is eliminated or another one updates it first, and not earlier, so
   // that it is still in the cache.
   void fill_when_needed() {
-    std::vector<std::size_t> needed_by(plan_.panels.size());
-    std::iota(needed_by.begin(), needed_by.end(), std::size_t{0});
-    std::size_t k = 0;
-    for (std::size_t g = 0; g < plan_.panels.size(); ++g) {
-      for (; k < plan_.panels[g].updates; ++k) {
-        const BlockPlan::Update& u = plan_.updates[k];
-        // columns that go on in the next panel do so in single rows
-        for (const std::size_t value : {u.target, u.target + index(u.columns - 1)}) {
-          std::size_t& first = needed_by[panel_of(value)];
-          first = std::min(first, g);
-        }
-      }
-    }
-    sort_by_need(needed_by, plan_.copies, &BlockPlan::Panel::copies);
-    sort_by_need(needed_by, plan_.gaps, &BlockPlan::Panel::gaps);
+    sort_by_need(plan_.copies, &BlockPlan::Panel::copies);
+    sort_by_need(plan_.gaps, &BlockPlan::Panel::gaps);
   }
 
   std::size_t panel_of(std::size_t value) const {
@@ -226,15 +240,83 @@ class Planner {
   }
 
   template <class Item>
-  void sort_by_need(const std::vector<std::size_t>& needed_by, std::vector<Item>& items,
-                    std::size_t BlockPlan::Panel::*end) {
+  void sort_by_need(std::vector<Item>& items, std::size_t BlockPlan::Panel::*end) {
     std::vector<std::size_t> next(plan_.panels.size(), 0);  // place of the next item, by panel
-    for (const Item& item : items) ++next[needed_by[panel_of(item.target)]];
+    for (const Item& item : items) ++next[needed_by_[panel_of(item.target)]];
     std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
     std::vector<Item> sorted(items.size());
-    for (const Item& item : items) sorted[next[needed_by[panel_of(item.target)]]++] = item;
+    for (const Item& item : items) sorted[next[needed_by_[panel_of(item.target)]]++] = item;
     for (std::size_t g = 0; g < plan_.panels.size(); ++g) plan_.panels[g].*end = next[g];
     items = std::move(sorted);
+  }
+
+  void stay() {
+    plan_.num_values = end_;
+    for (BlockPlan::Panel& p : plan_.panels) {
+      p.D = p.pivot;
+      p.V = p.pivot + index(p.size);
+      p.L = p.below;
+    }
+  }
+
+  void place_factors(std::size_t num_eliminated) {
+    const auto take = [&](int numbers) {
+      const std::size_t at = plan_.num_values;
+      plan_.num_values += whole_lines(index(numbers));
+      return at;
+    };
+    const std::span panels(plan_.panels.data(), num_eliminated);
+    for (auto p = panels.rbegin(); p != panels.rend(); ++p) p->V = take(p->size * p->width);
+    for (BlockPlan::Panel& p : panels) {
+      p.D = take(p.size * p.stride());
+      p.L = p.D + index(p.size) * index(p.size);
+    }
+  }
+
+  void move_to_bench() {
+    const std::vector<std::size_t> bench = find_places_on_bench();
+    const auto move = [&](std::size_t& value) {
+      const std::size_t panel = panel_of(value);
+      value += bench[panel] - plan_.panels[panel].pivot;
+    };
+    for (BlockPlan::Copy& copy : plan_.copies) move(copy.target);
+    for (BlockPlan::Gap& gap : plan_.gaps) move(gap.target);
+    for (BlockPlan::Update& update : plan_.updates) {
+      move(update.target);
+      move(update.below);
+      move(update.beside);
+    }
+    for (std::size_t p = 0; p < bench.size(); ++p) {
+      BlockPlan::Panel& panel = plan_.panels[p];
+      panel.below += bench[p] - panel.pivot;
+      panel.pivot = bench[p];
+    }
+  }
+
+  // Of each panel, from when it is needed until it is eliminated.
+  std::vector<std::size_t> find_places_on_bench() {
+    const auto size_of = [&](std::size_t panel) {
+      return whole_lines(end_of(panel) - plan_.panels[panel].pivot);
+    };
+    std::vector<std::size_t> by_need(plan_.panels.size());
+    std::iota(by_need.begin(), by_need.end(), std::size_t{0});
+    std::ranges::stable_sort(by_need, {}, [&](std::size_t panel) { return needed_by_[panel]; });
+    std::vector<std::size_t> places(plan_.panels.size());
+    std::map<std::size_t, std::vector<std::size_t>> free;  // by size
+    auto next = by_need.begin();
+    for (std::size_t g = 0; g < plan_.panels.size(); ++g) {
+      for (; next != by_need.end() && needed_by_[*next] == g; ++next) {
+        std::vector<std::size_t>& fitting = free[size_of(*next)];
+        if (fitting.empty()) {
+          fitting.push_back(plan_.bench_size);
+          plan_.bench_size += size_of(*next);
+        }
+        places[*next] = fitting.back();
+        fitting.pop_back();
+      }
+      free[size_of(g)].push_back(places[g]);
+    }
+    return places;
   }
 
   const BlockRows& rows_;
@@ -246,6 +328,8 @@ class Planner {
   std::vector<int> group_of_;             // of each block
   std::vector<int> place_;                // of the first unknown of each block
   std::vector<std::vector<int>> beside_;  // of each group: blocks right of the diagonal, in order
+  std::size_t end_ = 0;                   // of panels side by side
+  std::vector<std::size_t> needed_by_;    // of each panel
   BlockPlan plan_;
 };
 

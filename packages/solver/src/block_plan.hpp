@@ -8,20 +8,35 @@
 
 namespace culm::solver {
 
+/// So many numbers, rounded up to whole lines of the cache, of which no two panels share one.
+constexpr std::size_t whole_lines(std::size_t count) {
+  constexpr std::size_t line = 8;
+  return (count + line - 1) / line * line;
+}
+
 /// Where the factors of a matrix stand and how they are computed, block by block.
 ///
 /// Groups of blocks are eliminated one after the other. To group k belongs a panel: its rows
 /// [D U], with the square block D of the group and the columns U beside it that are eliminated
 /// later, and the rows L below D. Matrices are stored by rows. With A = [D U; L R], what remains is
 /// R - L V, V = D^-1 U.
+///
+/// Where the cache holds all of them, panels stay where they are made. Others are made on a bench,
+/// from when something is first subtracted from them until they are eliminated; then their place
+/// on it is free for the next. So a bench of few numbers stays in the cache, and what is finished
+/// is written once, past the cache, and not read before a solution wants it.
 struct BlockPlan {
   struct Panel {
     int size = 0;            ///< unknowns of the group
     int width = 0;           ///< columns of U, rows of L
     int first = 0;           ///< place of its first unknown in the order of elimination
     std::size_t beside = 0;  ///< its part of `beside`
-    std::size_t pivot = 0;   ///< [D U] in the values of the factors
-    std::size_t below = 0;   ///< L in the values of the factors
+    std::size_t pivot = 0;   ///< [D U] where it is made
+    std::size_t below = 0;   ///< L where it is made
+    /// D, V and L where they stay.
+    std::size_t D = 0;
+    std::size_t V = 0;
+    std::size_t L = 0;
     /// Ends of its updates, and of the copies and gaps that are to be done before it is eliminated;
     /// they begin where those of the panel before end.
     std::size_t updates = 0;
@@ -29,7 +44,7 @@ struct BlockPlan {
     std::size_t gaps = 0;
     int stride() const { return size + width; }
   };
-  /// target -= L V, for some rows of L and some columns of V.
+  /// target -= L V, for some rows of L and some columns of V, where panels are made.
   struct Update {
     std::size_t below = 0;   ///< first row of L
     std::size_t beside = 0;  ///< first column of V
@@ -38,7 +53,7 @@ struct BlockPlan {
     int rows = 0;
     int columns = 0;
   };
-  /// A rectangle of the matrix that goes to the factors.
+  /// A rectangle of the matrix that goes to where a panel is made.
   struct Copy {
     std::size_t source = 0;  ///< of the first entry, see BlockRows
     std::size_t target = 0;
@@ -59,12 +74,15 @@ struct BlockPlan {
     std::size_t size = 0;
   };
   std::vector<Gap> gaps;
+  std::size_t bench_size = 0;  ///< 0 without a bench
+  /// Of the factors. Those that come from a bench: first V of all panels, the one eliminated last
+  /// in front, as solutions read them.
   std::size_t num_values = 0;
 };
 
 /// @param host of each block, see `find_hosts`
 /// @param first_kept  the first of the blocks at the end that are not eliminated; if there are any,
-/// the D of the last panel is what remains for them
+/// the D of the last panel is what remains for them and stays on the bench
 BlockPlan plan_blocks(const BlockRows& rows, const std::vector<int>& host, int first_kept);
 
 }  // namespace culm::solver
