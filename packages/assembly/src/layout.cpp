@@ -69,7 +69,9 @@ void Layout::number_locally(const model::UnknownTable& unknowns, const Neighbour
       if (owned) local_row_[b] = column;
       local_column_[b] = column;
       local_blocks_.push_back({static_cast<int>(b), column, owned});
-      column += unknowns.block(static_cast<int>(b)).shape.active;
+      const model::Block& block = unknowns.block(static_cast<int>(b));
+      column += block.shape.active;
+      if (owned && block.kind == model::BlockKind::node) num_node_rows_ = column;
     }
   }
 }

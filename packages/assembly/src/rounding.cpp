@@ -16,6 +16,8 @@ constexpr double roundings = 4.0;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
+constexpr std::size_t rows_ahead = 36;
+
 // A residual so far above its bound needs no exact number.
 constexpr double hopeless = 1e3;
 
@@ -92,7 +94,8 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
   const auto judge = [&](int row) {
     const double found = std::abs(residual[index(row)]);
     if (found <= limit || share > hopeless) return;
-    fetch(values.data() + row_begin[index(row)] + numbers_ahead, sizeof(double));
+    const std::size_t later = std::min(index(row) + rows_ahead, row_begin.size() - 1);
+    fetch(values.data() + row_begin[later], 2 * 64);
     if (found > largest) {
       largest = found;
       largest_row = row;
@@ -115,22 +118,18 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
     if (is_small) return;
     share = std::max(share, found / (epsilon * (roundings * sum + terms)));
   };
-  const auto each_row = [&](auto action) {
-    for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
-      const model::Block& block = system.model().unknowns().block(local.block);
-      if (!local.owned || block.kind != model::BlockKind::node) continue;
-      for (int i = 0; i < block.shape.active; ++i) action(local.first_column + i);
-    }
-  };
+  const int num_rows = system.layout().num_node_rows();
   // where the largest one is hopeless, as before the last iterations, no other need be judged
   int worst_row = -1;
-  each_row([&](int row) {
-    if (worst_row < 0 || std::abs(residual[index(row)]) > std::abs(residual[index(worst_row)])) {
-      worst_row = row;
-    }
-  });
+  double worst_found = -1.0;
+  for (int row = 0; row < num_rows; ++row) {
+    const double found = std::abs(residual[index(row)]);
+    if (!(found > worst_found)) continue;
+    worst_found = found;
+    worst_row = row;
+  }
   if (worst_row >= 0) judge(worst_row);
-  if (share <= hopeless) each_row(judge);
+  for (int row = 0; row < num_rows && share <= hopeless; ++row) judge(row);
   const parallel::Comm& comm = system.comm();
   double worst[2] = {share, largest};
   comm.max(worst);

@@ -1,3 +1,4 @@
+#include <culm/math/fetch.hpp>
 #include <culm/math/vector_units.hpp>
 #include <culm/model/scatter.hpp>
 
@@ -6,11 +7,13 @@
 namespace culm::model {
 
 void Target::clear(std::size_t end) {
-  constexpr std::size_t least = 2048;  // numbers, a third of the nearest cache
+  constexpr std::size_t least = 128;  // numbers
   const std::size_t to = std::min(values.size(), std::max(end, stale_from + least));
+  const std::size_t from = stale_from;
   std::fill(values.begin() + static_cast<std::ptrdiff_t>(stale_from),
             values.begin() + static_cast<std::ptrdiff_t>(to), 0.0);
   stale_from = to < values.size() ? to : none;
+  fetch_to_write(values.data() + to + numbers_ahead, (to - from) * sizeof(double));
 }
 
 void Scatter::add_item(std::span<const Rows> rows, std::span<const int> offsets) {

@@ -317,7 +317,7 @@ double BlockLu::largest_behind_joints(int row) const {
 
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPlan::Panel& panel,
                                                                    double least) {
-  if (reads_backward_) fetch_before(panel);
+  if (has_bench()) fetch_before(panel);
   fill_before(panel);
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {

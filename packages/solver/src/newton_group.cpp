@@ -82,8 +82,10 @@ NOX::Abstract::Group& NewtonGroup::operator=(const NewtonGroup& other) {
   level_increment_ = other.level_increment_;
   evaluation_ = other.evaluation_;
   x_ = other.x_;
-  has_residual_ = other.has_residual_;
-  has_newton_ = other.has_newton_;
+  // only a search along the direction asks an earlier point for what was found there
+  const bool is_asked = problem_->settings.backtrack;
+  has_residual_ = is_asked && other.has_residual_;
+  has_newton_ = is_asked && other.has_newton_;
   has_tangent_ = false;  // the system has one matrix, and it stays with the original
   if (has_residual_) f_ = other.f_;
   if (has_newton_) newton_ = other.newton_;

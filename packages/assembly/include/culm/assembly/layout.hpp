@@ -27,6 +27,8 @@ class Layout {
 
   /// Of the unknowns that this rank owns.
   const Rows& rows() const { return *rows_; }
+  /// How many of these are of nodes; they come first.
+  int num_node_rows() const { return num_node_rows_; }
   /// Of the unknowns that its rows depend on: its own with the same numbers, then others.
   const Rows& columns() const { return *columns_; }
   const Pattern& pattern() const { return *pattern_; }
@@ -49,6 +51,7 @@ class Layout {
   parallel::Comm comm_;
   std::vector<int> owners_;
   std::vector<LocalBlock> local_blocks_;
+  int num_node_rows_ = 0;
   std::vector<int> local_row_;     ///< first owned row of a block, -1 when not owned
   std::vector<int> local_column_;  ///< first local column of a block, -1 when not here
   /// For owned blocks: the coupled blocks in the order of their columns, and where each run begins;

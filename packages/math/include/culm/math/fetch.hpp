@@ -17,4 +17,12 @@ inline constexpr std::size_t numbers_ahead = 1024;
   }
 }
 
+/// The same of bytes that will be written.
+[[gnu::always_inline]] inline void fetch_to_write(const void* to, std::size_t bytes) {
+  constexpr std::size_t line = 64;
+  for (std::size_t at = 0; at < bytes; at += line) {
+    __builtin_prefetch(static_cast<const char*>(to) + at, 1);
+  }
+}
+
 }  // namespace culm

@@ -1,6 +1,7 @@
 /// Where the numbers of an item go: precomputed places in the owned rows of a CSR matrix.
 #pragma once
 
+#include <culm/math/fetch.hpp>
 #include <culm/math/types.hpp>
 #include <culm/model/unknowns.hpp>
 
@@ -61,6 +62,7 @@ class Scatter {
     const Rows& rows = rows_[first_block_[item] + static_cast<std::size_t>(a)];
     if (rows.first < 0) return;
     double* out = target.residual.data() + rows.first;
+    fetch_to_write(out + rows_ahead, sizeof(double));
     if (is_node(*rows.shape)) {
       Eigen::Map<Vec6>(out) += Eigen::Map<const Vec6>(values);
       return;
@@ -154,6 +156,7 @@ class Scatter {
   std::size_t size() const { return first_block_.size() - 1; }
 
  private:
+  static constexpr int rows_ahead = 128;  ///< that other items will be added to
   static bool is_node(const BlockShape& shape) { return shape.full() && shape.width == 6; }
 
   std::vector<Rows> rows_;
