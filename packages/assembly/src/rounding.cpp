@@ -16,7 +16,8 @@ constexpr double roundings = 4.0;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-constexpr std::size_t rows_ahead = 36;
+// That are judged before those that memory is asked for.
+constexpr int rows_ahead = 36;
 
 // A residual so far above its bound needs no exact number.
 constexpr double hopeless = 1e3;
@@ -88,14 +89,15 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
   const auto row_begin = matrix.row_begin();
   const auto column_of = matrix.column_of();
   const auto first_column = system.first_columns();
+  const int num_rows = system.layout().num_node_rows();
   double share = 0.0;
   double largest = 0.0;
   int largest_row = 0;
   const auto judge = [&](int row) {
     const double found = std::abs(residual[index(row)]);
     if (found <= limit || share > hopeless) return;
-    const std::size_t later = std::min(index(row) + rows_ahead, row_begin.size() - 1);
-    fetch(values.data() + row_begin[later], 2 * 64);
+    const int later = std::min(row + rows_ahead, num_rows - 1);
+    fetch(values.data() + row_begin[index(later)], sizeof(double));
     if (found > largest) {
       largest = found;
       largest_row = row;
@@ -118,7 +120,6 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
     if (is_small) return;
     share = std::max(share, found / (epsilon * (roundings * sum + terms)));
   };
-  const int num_rows = system.layout().num_node_rows();
   // where the largest one is hopeless, as before the last iterations, no other need be judged
   int worst_row = -1;
   double worst_found = -1.0;

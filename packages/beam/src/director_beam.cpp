@@ -71,16 +71,6 @@ typename DirectorBeam<Order>::Strain DirectorBeam<Order>::absolute_strain(const 
 }
 
 template <int Order>
-double DirectorBeam<Order>::least_cosine(const Nodes& q) noexcept {
-  double least = 1.0;
-  for (int a = 0; a < Order; ++a) {
-    least = std::min(least, model::cosine_between(q.template middleCols<4>(4 * a),
-                                                  q.template middleCols<4>(4 * a + 4)));
-  }
-  return least;
-}
-
-template <int Order>
 void DirectorBeam<Order>::strain(int point, const Nodes& q, Strain& e) const noexcept {
   e = absolute_strain(at(point), q) - at(point).reference;
 }

@@ -55,17 +55,6 @@ typename LinearBeam<Order>::Local LinearBeam<Order>::in_frame(const Nodes& q) no
 }
 
 template <int Order>
-double LinearBeam<Order>::least_cosine(const Nodes& q) const noexcept {
-  const Local local = in_frame(q);
-  double least = 1.0;
-  for (int s = 0; s < beam_slots; s += 4) {
-    least = std::min(least, model::cosine_between(local.template middleCols<4>(s),
-                                                  reference_.template middleCols<4>(s)));
-  }
-  return least;
-}
-
-template <int Order>
 void LinearBeam<Order>::strain(int point, const Nodes& q, Strain& e) const noexcept {
   const Local local = in_frame(q) - reference_;
   const Eigen::Map<const Vec<3 * beam_slots>> v(local.data());

@@ -163,7 +163,8 @@ bool BlockLu::set_hosts(std::span<const int> host) {
 
 void BlockLu::plan() {
   plan_ = plan_blocks(rows_, host_, first_kept_);
-  reads_backward_ = has_bench() && plan_.copies.front().source > plan_.copies[plan_.copies.size() / 2].source;
+  reads_backward_ =
+      has_bench() && plan_.copies.front().source > plan_.copies[plan_.copies.size() / 2].source;
   const std::size_t rows = plan_.unknown.size();
   const auto resize = [](std::vector<Packs<1>>& packs, std::size_t numbers) {
     packs.assign((numbers + pack_lanes - 1) / pack_lanes, Packs<1>());
@@ -220,7 +221,7 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
 // Brings from the matrix what the elimination of a panel is the first to need.
 [[gnu::always_inline]] inline void BlockLu::fill_before(const BlockPlan::Panel& panel) {
   const auto copy_rows = [&](const BlockPlan::Copy& c, auto columns)
-                             __attribute__((always_inline)) {
+      __attribute__((always_inline)) {
     const double* source = rows_.values(c.source);
     double* target = bench() + c.target;
     for (int i = 0; i < c.rows; ++i, source += c.source_stride, target += c.target_stride) {
@@ -233,7 +234,8 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
   }
   for (std::size_t k = done.copies; k < panel.copies; ++k) {
     const BlockPlan::Copy& c = plan_.copies[k];
-    with_few(c.columns, [&](auto columns) __attribute__((always_inline)) { copy_rows(c, columns); });
+    with_few(
+        c.columns, [&](auto columns) __attribute__((always_inline)) { copy_rows(c, columns); });
   }
 }
 
@@ -321,9 +323,8 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
   fill_before(panel);
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
-    return factor_panel(bench() + panel.pivot, size, width, before_.data() + panel.first,
-                        least, exchanged_.data() + panel.first, row_weight_.data(),
-                        room_.data()->numbers);
+    return factor_panel(bench() + panel.pivot, size, width, before_.data() + panel.first, least,
+                        exchanged_.data() + panel.first, row_weight_.data(), room_.data()->numbers);
   });
   if (!is_sound) {
     failed_ = &panel;
@@ -396,9 +397,8 @@ void BlockLu::reduce_by(const BlockPlan::Panel& panel) {
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::reduce_by(const BlockPlan::Panel& panel,
                                                                    const double* D, int stride,
                                                                    const double* L) {
-  with_sizes(panel, [&](auto size, auto width) {
-    substitute_forward(panel, size, width, D, stride, L);
-  });
+  with_sizes(panel,
+             [&](auto size, auto width) { substitute_forward(panel, size, width, D, stride, L); });
 }
 
 void BlockLu::put_kept(std::span<double> x) const {
@@ -451,8 +451,8 @@ template <class Size, class Width>
 void BlockLu::substitute_back(const BlockPlan::Panel& panel, Size size, Width width) {
   const int* beside = plan_.beside.data() + panel.beside;
   for (int k = 0; k < width; ++k) beside_[index(k)] = x_[index(beside[k])];
-  subtract_product(factors() + panel.V, stride_of_V(panel), beside_.data(), x_.data() + panel.first, size,
-                   width);
+  subtract_product(factors() + panel.V, stride_of_V(panel), beside_.data(), x_.data() + panel.first,
+                   size, width);
 }
 
 // Rows and columns are in the same order, so that only exchanges inside blocks change the sign.

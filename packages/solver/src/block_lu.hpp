@@ -104,8 +104,8 @@ class BlockLu {
   const BlockPlan::Panel* failed_ = nullptr;  ///< whose pivots are nothing but rounding
   std::vector<std::size_t> diagonal_;         ///< by place: source of its entry; `none`
   std::vector<int> place_;                    ///< of each row
-  bool reads_backward_ = false;  ///< the matrix, which does not stay in the cache
-  std::vector<Packs<1>> bench_;      ///< where panels are made, see BlockPlan
+  bool reads_backward_ = false;               ///< the matrix, which does not stay in the cache
+  std::vector<Packs<1>> bench_;               ///< where panels are made, see BlockPlan
   std::vector<Packs<1>> factors_;
   std::vector<double> before_;      ///< by place: largest size of the diagonal so far
   std::size_t noted_ = 0;           ///< places that `before_` knows

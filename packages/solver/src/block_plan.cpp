@@ -176,8 +176,7 @@ class Planner {
           const int columns = blocks_.sizes[index(column_block)];
           BlockPlan::Update* last = plan_.updates.size() > first ? &plan_.updates.back() : nullptr;
           if (last != nullptr && last->target + index(last->columns) == target.at &&
-              last->stride == target.stride &&
-              panel_of(last->target) == panel_of(target.at)) {
+              last->stride == target.stride && panel_of(last->target) == panel_of(target.at)) {
             last->columns += columns;
           } else {
             plan_.updates.push_back({below, beside, target.at, target.stride,

@@ -1,5 +1,7 @@
 #include "newton_group.hpp"
 
+#include <culm/base/error.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -75,6 +77,9 @@ void NewtonGroup::forget_results() { has_residual_ = has_tangent_ = has_newton_ 
 
 NOX::Abstract::Group& NewtonGroup::operator=(const NewtonGroup& other) {
   if (this == &other) return *this;
+  forget_results();  // the system has one matrix, and it stays with the original
+  start_of_ = problem_->settings.backtrack ? nullptr : &other;
+  if (start_of_ != nullptr) return *this;
   next_ = other.next_;
   multipliers_ = other.multipliers_;
   own_ = other.own_;
@@ -82,11 +87,8 @@ NOX::Abstract::Group& NewtonGroup::operator=(const NewtonGroup& other) {
   level_increment_ = other.level_increment_;
   evaluation_ = other.evaluation_;
   x_ = other.x_;
-  // only a search along the direction asks an earlier point for what was found there
-  const bool is_asked = problem_->settings.backtrack;
-  has_residual_ = is_asked && other.has_residual_;
-  has_newton_ = is_asked && other.has_newton_;
-  has_tangent_ = false;  // the system has one matrix, and it stays with the original
+  has_residual_ = other.has_residual_;
+  has_newton_ = other.has_newton_;
   if (has_residual_) f_ = other.f_;
   if (has_newton_) newton_ = other.newton_;
   return *this;
@@ -100,7 +102,10 @@ void NewtonGroup::setX(const NOX::Abstract::Vector& x) { x_ = NewtonVector::cast
 
 void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract::Vector& direction,
                            double step) {
-  const auto& origin = dynamic_cast<const NewtonGroup&>(from);
+  const auto& copy = dynamic_cast<const NewtonGroup&>(from);
+  internal_check(copy.start_of_ == nullptr || copy.start_of_ == this,
+                 "a step went on from a point that was not kept");
+  const NewtonGroup& origin = copy.start_of_ == this ? *this : copy;
   const auto& increment = NewtonVector::cast(direction);
   next_ = origin.next_;
   multipliers_ = origin.multipliers_;

@@ -4,6 +4,7 @@
 #include <culm/mechanics/element.hpp>
 #include <culm/model/turn_source.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace culm::beam {
@@ -60,8 +61,15 @@ class DirectorBeam {
     return {"N1", "N2", "N3", "M1", "M2", "M3"};
   }
 
-  /// Cosine of the largest turn between neighbouring nodes
-  static double least_cosine(const Nodes& q) noexcept;
+  /// Cosine of the largest turn between neighbouring nodes. @see HasTurn
+  template <class SlotsAt>
+  static double least_cosine(const SlotsAt& at) noexcept {
+    double least = 1.0;
+    for (int a = 0; a < Order; ++a) {
+      least = std::min(least, model::cosine_between(at(a), at(a + 1)));
+    }
+    return least;
+  }
 
   /// Strain of the reference before subtraction: (d_i . x', K_i) [-, 1/m]
   const Strain& reference_strain(int point) const noexcept { return at(point).reference; }

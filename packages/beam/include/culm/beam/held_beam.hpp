@@ -53,7 +53,10 @@ class HeldBeam {
     return names;
   }
 
-  static double least_cosine(const Nodes& q) noexcept { return Base::least_cosine(q); }
+  template <class SlotsAt>
+  static double least_cosine(const SlotsAt& at) noexcept {
+    return Base::least_cosine(at);
+  }
 
  private:
   Base base_;

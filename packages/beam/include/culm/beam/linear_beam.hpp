@@ -53,8 +53,20 @@ class LinearBeam {
     return Base::resultant_names();
   }
 
-  /// Cosine of the largest turn of a node against the frame, from where it stood in the reference
-  double least_cosine(const Nodes& q) const noexcept;
+  /// Cosine of the largest turn of a node against the frame, from where it stood in the reference.
+  /// @see HasTurn
+  template <class SlotsAt>
+  double least_cosine(const SlotsAt& at) const noexcept {
+    Nodes q;
+    for (int a = 0; a < num_nodes; ++a) q.template middleCols<4>(4 * a) = at(a);
+    const Local local = in_frame(q);
+    double least = 1.0;
+    for (int s = 0; s < beam_slots; s += 4) {
+      least = std::min(least, model::cosine_between(local.template middleCols<4>(s),
+                                                    reference_.template middleCols<4>(s)));
+    }
+    return least;
+  }
 
  private:
   static constexpr int beam_slots = Base::num_slots;

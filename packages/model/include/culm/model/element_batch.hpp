@@ -348,7 +348,7 @@ class ElementBatch final : public Batch,
   double turn_of([[maybe_unused]] int item, [[maybe_unused]] const Coordinates& q) const override {
     double least = 1.0;
     if constexpr (HasTurn<E>) {
-      least = items_[item].least_cosine(gather_slots<K>(nodes(item), q));
+      least = least_cosine(items_[item], nodes(item), q);
     }
     return turn_from(least);
   }
@@ -379,7 +379,12 @@ class ElementBatch final : public Batch,
     return gather_slots<K>(local(i).nodes, q);
   }
   double least_cosine(std::size_t i, const Coordinates& q) const requires HasTurn<E> {
-    return local(i).element.least_cosine(gather(i, q));
+    return least_cosine(local(i).element, nodes(placement_.items[i]), q);
+  }
+  static double least_cosine(const E& element, const std::array<int, N>& nodes,
+                             const Coordinates& q) requires HasTurn<E> {
+    return element.least_cosine(
+        [&](int a) { return NodeTable::slots(q, nodes[static_cast<std::size_t>(a)]); });
   }
   static double turn_from(double cosine) {
     if constexpr (HasTurn<E>) return E::turn_kind.order * std::acos(std::clamp(cosine, -1.0, 1.0));

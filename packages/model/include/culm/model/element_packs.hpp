@@ -92,11 +92,12 @@ class ElementPacks {
   void extrapolate(const State& state, const Stencil& stencil, const Coordinates& increment) {
     stress_.resize(packs_.size());
     Packs<12 * N> change;
-    const Reads reads{&state.next, stencil.theta_strain != 1.0 ? &state.prev : nullptr, &increment};
+    const std::array read = {&state.next, stencil.theta_strain != 1.0 ? &state.prev : nullptr,
+                             &increment};
     for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
       gather(nodes_[pack], state, stencil.theta_strain != 1.0, false);
       gather(nodes_[pack], increment, change);
-      for (std::size_t l = 0; l < pack_lanes; ++l) fetch_lane(pack + 1, l, reads);
+      fetch_pack(pack + 1, read);
       packs_[pack].extrapolate(motion_, change.data(), stencil, stress_[pack].data());
     }
     is_extrapolated_ = true;
@@ -107,16 +108,16 @@ class ElementPacks {
   Verdict evaluate(const NodeTable& table, const State& state, const Stencil& stencil,
                    bool with_tangent, Add add) {
     Verdict verdict = Verdict::ok;
-    const Reads reads{&state.next, counts_start(stencil) ? &state.prev : nullptr,
-                      stencil.inertia != 0.0 ? &state.acceleration_offset : nullptr};
+    const std::array read = {&state.next, counts_start(stencil) ? &state.prev : nullptr,
+                             stencil.inertia != 0.0 ? &state.acceleration_offset : nullptr};
     for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
       const Lanes& lanes = nodes_[pack];
       gather(lanes, state, counts_start(stencil), stencil.inertia != 0.0);
+      fetch_pack(pack + 1, read);
       packs_[pack].evaluate(motion_, is_extrapolated_ ? stress_[pack].data() : nullptr, stencil,
                             with_tangent, sum_);
       take(with_tangent);
       for_lanes(pack, [&](std::size_t i, int l) {
-        fetch_lane(pack + 1, index(l), reads);
         const Nodes& nodes = lanes[index(l)];
         Contribution& c = contributions_[index(l)];
         for (int a = 0; a < N; ++a) {
@@ -146,27 +147,22 @@ class ElementPacks {
     for (std::size_t i = first; i < end; ++i) visit(i, static_cast<int>(i - first));
   }
 
-  // What evaluating a pack reads.
-  struct Reads {
-    const Coordinates* next;
-    const Coordinates* start = nullptr;
-    const Coordinates* more = nullptr;
-  };
-  // Asks the memory for the share of one lane in what a pack reads, while the pack before is
-  // evaluated: lane by lane, as processors wait where they are asked for too much at once.
-  [[gnu::always_inline]] void fetch_lane(std::size_t pack, std::size_t l, const Reads& reads) const {
+  // Asks the memory for a pack and for where its elements are, while the one before is evaluated.
+  // Inlined, as compilers leave a function out that does nothing else.
+  [[gnu::always_inline]] void fetch_pack(std::size_t pack,
+                                         const std::array<const Coordinates*, 3>& all_read) const {
     constexpr std::size_t share = sizeof(typename E::Pack) / pack_lanes;
     if (pack >= packs_.size()) return;
-    fetch(reinterpret_cast<const char*>(&packs_[pack]) + l * share, share);
-    if (is_extrapolated_) fetch(stress_[pack].data() + l, sizeof(Pack));
-    const auto fetch_nodes = [&](const Coordinates* q) __attribute__((always_inline)) {
-      if (q == nullptr) return;
-      const Nodes& nodes = nodes_[pack][l];
-      for (const int node : nodes) fetch(q->data() + NodeTable::offset(node), 12 * sizeof(double));
-    };
-    fetch_nodes(reads.next);
-    fetch_nodes(reads.start);
-    fetch_nodes(reads.more);
+    for (std::size_t l = 0; l < pack_lanes; ++l) {
+      fetch(reinterpret_cast<const char*>(&packs_[pack]) + l * share, share);
+      for (const Coordinates* q : all_read) {
+        if (q == nullptr) continue;
+        for (const int node : nodes_[pack][l]) {
+          fetch(q->data() + NodeTable::offset(node), 12 * sizeof(double));
+        }
+      }
+    }
+    if (is_extrapolated_) fetch(&stress_[pack], sizeof(Packs<num_values>));
   }
 
   static void gather(const Lanes& lanes, const Coordinates& q, Packs<12 * N>& slots) {

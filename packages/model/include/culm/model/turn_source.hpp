@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/mechanics/node.hpp>
+#include <culm/model/node_table.hpp>
 #include <culm/model/state.hpp>
 
 #include <concepts>
@@ -16,11 +17,11 @@ struct TurnKind {
 };
 
 /// An element with such a limit: `turn_kind`, and the cosine of the largest turn of its intervals,
-/// of which there are as many as its order.
+/// of which there are as many as its order. @param at  slots of each of its nodes
 template <class E>
-concept HasTurn = requires(const E& e, const Slots<E::num_slots>& q) {
+concept HasTurn = requires(const E& e, NodeSlots (*const& at)(int)) {
   { E::turn_kind } -> std::convertible_to<TurnKind>;
-  { e.least_cosine(q) }
+  { e.least_cosine(at) }
   noexcept->std::same_as<double>;
 };
 
