@@ -1,5 +1,6 @@
 #include "block_lu.hpp"
 
+#include <culm/math/fetch.hpp>
 #include <culm/math/types.hpp>
 #include <culm/math/vector_units.hpp>
 
@@ -76,8 +77,8 @@ template <class Visit>
 
 }  // namespace
 
-BlockLu::BlockLu(const BlockRows& rows, int kept)
-    : rows_(rows), block_of_(block_of_row(find_blocks(rows))), kept_(kept) {
+BlockLu::BlockLu(const BlockRows& rows, int kept, std::size_t cached)
+    : rows_(rows), block_of_(block_of_row(find_blocks(rows))), kept_(kept), cached_(cached) {
   num_blocks_ = block_of_.empty() ? 0 : block_of_.back() + 1;
   first_kept_ = kept == 0 ? num_blocks_ : block_of_[block_of_.size() - index(kept)];
 }
@@ -162,9 +163,7 @@ bool BlockLu::set_hosts(std::span<const int> host) {
 }
 
 void BlockLu::plan() {
-  plan_ = plan_blocks(rows_, host_, first_kept_);
-  reads_backward_ =
-      has_bench() && plan_.copies.front().source > plan_.copies[plan_.copies.size() / 2].source;
+  plan_ = plan_blocks(rows_, host_, first_kept_, cached_);
   const std::size_t rows = plan_.unknown.size();
   const auto resize = [](std::vector<Packs<1>>& packs, std::size_t numbers) {
     packs.assign((numbers + pack_lanes - 1) / pack_lanes, Packs<1>());
@@ -201,11 +200,9 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
   return number == 0 ? BlockPlan::Panel() : plan_.panels[index(number - 1)];
 }
 
-// Asks the memory for what panels behind this one bring from the matrix. Processors do so by
-// themselves where it is read in the order in which it stands in memory, and better.
+// Asks the memory for what panels behind this one bring from the matrix.
 [[gnu::always_inline]] inline void BlockLu::fetch_before(const BlockPlan::Panel& panel) {
   constexpr std::ptrdiff_t ahead = 4;
-  constexpr int numbers_of_line = 8;
   const BlockPlan::Panel* last = plan_.panels.data() + plan_.panels.size() - 1;
   if (last - &panel < ahead) return;
   const BlockPlan::Panel* then = &panel + ahead;
@@ -213,7 +210,7 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
     const BlockPlan::Copy& c = plan_.copies[k];
     const double* source = rows_.values(c.source);
     for (int i = 0; i < c.rows; ++i, source += c.source_stride) {
-      for (int j = 0; j < c.columns; j += numbers_of_line) __builtin_prefetch(source + j);
+      fetch(source, index(c.columns) * sizeof(double));
     }
   }
 }

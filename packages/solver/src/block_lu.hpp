@@ -24,8 +24,8 @@ namespace culm::solver {
 class BlockLu {
  public:
   /// The matrix stays with the caller. @param kept rows at the end that are not eliminated; they
-  /// form blocks of their own
-  explicit BlockLu(const BlockRows& rows, int kept = 0);
+  /// form blocks of their own. @param cached  see `plan_blocks`
+  explicit BlockLu(const BlockRows& rows, int kept = 0, std::size_t cached = cached_values);
 
   /// Factors the present values. @return false if a pivot is nothing but rounding or not a number,
   /// or entries grow too much; the matrix may yet have factors with other pivots
@@ -99,12 +99,12 @@ class BlockLu {
   int num_blocks_ = 0;
   int kept_ = 0;        ///< rows
   int first_kept_ = 0;  ///< block
+  std::size_t cached_;
   std::vector<int> host_;
   BlockPlan plan_;
   const BlockPlan::Panel* failed_ = nullptr;  ///< whose pivots are nothing but rounding
   std::vector<std::size_t> diagonal_;         ///< by place: source of its entry; `none`
   std::vector<int> place_;                    ///< of each row
-  bool reads_backward_ = false;               ///< the matrix, which does not stay in the cache
   std::vector<Packs<1>> bench_;               ///< where panels are made, see BlockPlan
   std::vector<Packs<1>> factors_;
   std::vector<double> before_;      ///< by place: largest size of the diagonal so far

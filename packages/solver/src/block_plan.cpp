@@ -12,13 +12,10 @@
 namespace culm::solver {
 namespace {
 
-// More numbers come from memory, and not from a cache.
-constexpr std::size_t cached_values = std::size_t{1} << 20;
-
 // Until all is listed, panels stand side by side, and every number has a place of its own.
 class Planner {
  public:
-  Planner(const BlockRows& rows, const std::vector<int>& host, int first_kept)
+  Planner(const BlockRows& rows, const std::vector<int>& host, int first_kept, std::size_t cached)
       : rows_(rows),
         blocks_(find_blocks(rows)),
         block_of_(block_of_row(blocks_)),
@@ -33,7 +30,7 @@ class Planner {
     find_gaps();
     find_need();
     fill_when_needed();
-    if (end_ <= cached_values) {
+    if (end_ <= cached) {
       stay();
       return;
     }
@@ -334,8 +331,9 @@ class Planner {
 
 }  // namespace
 
-BlockPlan plan_blocks(const BlockRows& rows, const std::vector<int>& host, int first_kept) {
-  return Planner(rows, host, first_kept).take();
+BlockPlan plan_blocks(const BlockRows& rows, const std::vector<int>& host, int first_kept,
+                      std::size_t cached) {
+  return Planner(rows, host, first_kept, cached).take();
 }
 
 }  // namespace culm::solver

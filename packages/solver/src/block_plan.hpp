@@ -80,9 +80,14 @@ struct BlockPlan {
   std::size_t num_values = 0;
 };
 
+/// More numbers come from memory, and not from a cache.
+constexpr std::size_t cached_values = std::size_t{1} << 20;
+
 /// @param host of each block, see `find_hosts`
 /// @param first_kept  the first of the blocks at the end that are not eliminated; if there are any,
 /// the D of the last panel is what remains for them and stays on the bench
-BlockPlan plan_blocks(const BlockRows& rows, const std::vector<int>& host, int first_kept);
+/// @param cached  factors with more numbers have a bench
+BlockPlan plan_blocks(const BlockRows& rows, const std::vector<int>& host, int first_kept,
+                      std::size_t cached = cached_values);
 
 }  // namespace culm::solver

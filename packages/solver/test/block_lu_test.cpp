@@ -207,6 +207,58 @@ TEST(BlockLu, ReducesWhileItFactors) {
   }
 }
 
+// Where panels are made changes no digit.
+TEST(BlockLu, ABenchChangesNothing) {
+  constexpr std::size_t none_cached = 0;
+  for (const Skeleton& s : skeletons()) {
+    BlockMatrix A(s);
+    const int last = s.sizes.back();
+    const std::vector<int> blocks = block_of_row(find_blocks(*A.matrix));
+    const bool stands_alone =
+        s.sizes.size() > 1 && blocks[s.rows() - last - 1] != blocks[s.rows() - last];
+    for (const int kept : {0, stands_alone ? last : 0}) {
+      BlockLu in_place(*A.matrix, kept), by_bench(*A.matrix, kept, none_cached);
+      for (int i = 0; i < 2; ++i) {
+        const std::string where = s.name + " of " + std::to_string(s.sizes.size());
+        Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0), y = x;
+        const std::span<double> of_x(x.data(), static_cast<std::size_t>(x.size()));
+        const std::span<double> of_y(y.data(), static_cast<std::size_t>(y.size()));
+        ASSERT_TRUE(in_place.factor_and_reduce(of_x) && by_bench.factor_and_reduce(of_y)) << where;
+        EXPECT_TRUE(std::ranges::equal(in_place.remainder(), by_bench.remainder())) << where;
+        in_place.put_kept(of_x);
+        by_bench.put_kept(of_y);
+        in_place.extend(of_x);
+        by_bench.extend(of_y);
+        EXPECT_EQ(x, y) << where;
+        in_place.reduce(of_x);
+        by_bench.reduce(of_y);
+        EXPECT_EQ(x, y) << where;
+        EXPECT_EQ(in_place.determinant().log_size, by_bench.determinant().log_size) << where;
+        A.values *= 2.0;
+        A.refresh();
+      }
+    }
+  }
+}
+
+// Of a chain two panels are made at a time, of a tree those that wait for their second branch, too.
+TEST(BlockLu, ABenchHoldsFewPanels) {
+  constexpr int nodes = 63;
+  const auto six = [](int) { return 6; };
+  const auto size_of = [&](const Skeleton& s) {
+    const BlockMatrix A(s);
+    const BlockPlan plan = plan_blocks(*A.matrix, std::vector<int>(nodes, -1), nodes, 0);
+    std::size_t largest = 0;
+    for (const BlockPlan::Panel& p : plan.panels) {
+      largest = std::max(largest, whole_lines(static_cast<std::size_t>(p.size) * p.stride() +
+                                              static_cast<std::size_t>(p.width) * p.size));
+    }
+    return static_cast<double>(plan.bench_size) / static_cast<double>(largest);
+  };
+  EXPECT_LE(size_of(chain(nodes, six)), 3.0);  // the last panel is narrower
+  EXPECT_LE(size_of(tree(nodes, six)), 33.0);  // leaves first
+}
+
 // Elimination begins at the free end, so that nothing is dragged along.
 TEST(BlockLu, AKeptEndDoesNotWidenAChain) {
   const Skeleton s = chain(60, [](int) { return 6; });

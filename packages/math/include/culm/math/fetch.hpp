@@ -1,4 +1,5 @@
-/// What is needed soon, asked for in time.
+/// What is needed soon, asked for in time. Functions that do nothing but ask have to be inlined
+/// (`gnu::always_inline`): compilers take them for such without effect and leave their calls out.
 #pragma once
 
 #include <cstddef>
