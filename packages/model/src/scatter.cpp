@@ -7,10 +7,10 @@
 namespace culm::model {
 
 void Target::clear(std::size_t end) {
-  constexpr std::size_t least = 128;  // numbers
-  const std::size_t to = std::min(values.size(), std::max(end, stale_from + least));
+  constexpr std::size_t least = 128;  // numbers, as of a node: memory asked for many at once waits
   const std::size_t from = stale_from;
-  std::fill(values.begin() + static_cast<std::ptrdiff_t>(stale_from),
+  const std::size_t to = std::min(values.size(), std::max(end, from + least));
+  std::fill(values.begin() + static_cast<std::ptrdiff_t>(from),
             values.begin() + static_cast<std::ptrdiff_t>(to), 0.0);
   stale_from = to < values.size() ? to : none;
   fetch_to_write(values.data() + to + numbers_ahead, (to - from) * sizeof(double));

@@ -55,6 +55,7 @@ void NewtonGroup::start() {
   own_ = problem_->state->own;
   level_ = problem_->state->time;
   level_increment_ = 0.0;
+  ++moves_;
   problem_->stress_waits = false;
   forget_results();
 }
@@ -79,6 +80,7 @@ NOX::Abstract::Group& NewtonGroup::operator=(const NewtonGroup& other) {
   if (this == &other) return *this;
   forget_results();  // the system has one matrix, and it stays with the original
   start_of_ = problem_->settings.backtrack ? nullptr : &other;
+  moves_ = other.moves_;
   if (start_of_ != nullptr) return *this;
   next_ = other.next_;
   multipliers_ = other.multipliers_;
@@ -103,9 +105,11 @@ void NewtonGroup::setX(const NOX::Abstract::Vector& x) { x_ = NewtonVector::cast
 void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract::Vector& direction,
                            double step) {
   const auto& copy = dynamic_cast<const NewtonGroup&>(from);
-  internal_check(copy.start_of_ == nullptr || copy.start_of_ == this,
+  const bool is_here = copy.start_of_ == this && copy.moves_ == moves_;
+  internal_check(copy.start_of_ == nullptr || is_here,
                  "a step went on from a point that was not kept");
-  const NewtonGroup& origin = copy.start_of_ == this ? *this : copy;
+  const NewtonGroup& origin = is_here ? *this : copy;
+  ++moves_;
   const auto& increment = NewtonVector::cast(direction);
   next_ = origin.next_;
   multipliers_ = origin.multipliers_;

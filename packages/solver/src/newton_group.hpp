@@ -113,8 +113,9 @@ class NewtonGroup final : public NOX::Abstract::Group {
   double level_increment_ = 0.0;  ///< belongs to newton_
   assembly::Evaluation evaluation_;
   /// With full steps nobody asks the point before for anything, so that a copy only says of which
-  /// point it is the start, and the step moves that one.
+  /// point it is the start, and how often that one had moved; the step moves it.
   const NewtonGroup* start_of_ = nullptr;
+  long moves_ = 0;
   NewtonVector x_;
   NewtonVector f_;
   NewtonVector newton_;
