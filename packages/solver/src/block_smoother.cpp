@@ -1,11 +1,15 @@
 #include "block_smoother.hpp"
 
 #include <culm/math/types.hpp>
+#include <culm/math/vector_units.hpp>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <utility>
 
 namespace culm::solver {
 
@@ -13,12 +17,40 @@ using assembly::Vector;
 
 namespace {
 
-constexpr int degree = 3;
-constexpr double span_of_eigenvalues = 20.0;  // what is below belongs to the coarse grid
-constexpr double margin = 1.1;                // of the largest eigenvalue, found from below
+// Eigenvalues below a share of the largest belong to the coarse grid.
+struct Polynomial {
+  int degree;
+  double span;
+};
+// Least time for plates of 100 x 100 to 400 x 400, whose iterations are the fewest there, too;
+// where elements have soft modes, it takes half as many iterations again, and as long.
+constexpr Polynomial of_nodes{2, 10.0};
+constexpr Polynomial with_modes{3, 20.0};
+constexpr double margin = 1.1;  // of the largest eigenvalue, found from below
 constexpr int lanczos_steps = 12;
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// z = B r, with the columns of B one after the other.
+template <class Width>
+[[gnu::always_inline]] inline void multiply_columns(const float* column, Width width,
+                                                    const double* r, double* z) {
+  for (int i = 0; i < width; ++i) z[i] = 0.0;
+  for (int k = 0; k < width; ++k, column += width) {
+    for (int i = 0; i < width; ++i) z[i] += static_cast<double>(column[i]) * r[k];
+  }
+}
+
+CULM_FOR_EACH_VECTOR_UNIT void multiply_block(const float* block, int width, const double* r,
+                                              double* z) {
+  if (width == 6) {
+    double sums[6];
+    multiply_columns(block, std::integral_constant<int, 6>(), r, sums);
+    std::copy_n(sums, 6, z);
+  } else {
+    multiply_columns(block, width, r, z);
+  }
+}
 
 // Entries without any symmetry, the same on any number of ranks.
 void fill_irregular(Vector& v) {
@@ -57,7 +89,7 @@ void BlockSmoother::add_modes(const std::vector<bool>& carried, const parallel::
 }
 
 void BlockSmoother::refresh() {
-  grid_.rows().round(rounded_);
+  matrix_.copy(grid_.rows());
   for (int node = 0; node < grid_.nodes(); ++node) {
     const int width = grid_.width(node);
     const auto columns = grid_.rows().columns(node);
@@ -69,13 +101,13 @@ void BlockSmoother::refresh() {
         block(row, place) = grid_.rows().values(node)[index(row) * columns.size() + k];
       }
     }
-    Eigen::Map<RowMajor> inverse(inverse_.data() + first_[index(node)], width, width);
+    Eigen::Map<Eigen::MatrixXf> inverse(inverse_.data() + first_[index(node)], width, width);
     const Eigen::FullPivLU<RowMajor> lu(block);
     leaves_[index(node)] = !lu.isInvertible() || !block.allFinite();
     if (leaves_[index(node)]) {
       inverse.setZero();
     } else {
-      inverse = lu.inverse();
+      inverse = lu.inverse().cast<float>();
     }
   }
 }
@@ -87,15 +119,7 @@ void BlockSmoother::precondition(const Vector& r, Vector& z) {
   for (int node = 0; node < grid_.nodes(); ++node) {
     const int width = grid_.width(node);
     const int first = grid_.first_column(node);
-    if (width == 6) {
-      Eigen::Map<Vec6>(to.data() + first).noalias() =
-          Eigen::Map<const RowMat<6, 6>>(this->inverse(node)) *
-          Eigen::Map<const Vec6>(from.data() + first);
-      continue;
-    }
-    const Eigen::Map<const RowMajor> inverse(this->inverse(node), width, width);
-    Eigen::Map<Eigen::VectorXd>(to.data() + first, width).noalias() =
-        inverse * Eigen::Map<const Eigen::VectorXd>(from.data() + first, width);
+    multiply_block(inverse(node), width, from.data() + first, to.data() + first);
   }
   if (modes_) modes_->add(r, z);
 }
@@ -137,29 +161,48 @@ double BlockSmoother::find_largest() {
 }
 
 void BlockSmoother::smooth(const Vector& b, Vector& x) {
+  x.fill(0.0);
+  improve(b, x);
+}
+
+void BlockSmoother::smooth_further(const Vector& b, Vector& x) {
+  grid_.subtract_product(matrix_, x, b, rest_);
+  improve(rest_, x);
+}
+
+// `rest_` becomes b - A x before the last step. @param rest  b - A x, may be `rest_`
+void BlockSmoother::improve(const Vector& rest, Vector& x) {
+  const auto [degree, span] = modes_ ? with_modes : of_nodes;
   const double upper = margin * upper_;
-  const double lower = upper / span_of_eigenvalues;
+  const double lower = upper / span;
   const double centre = 0.5 * (upper + lower);
   const double radius = 0.5 * (upper - lower);
   const double sigma = centre / radius;
   double rho = 1.0 / sigma;
-  rest_ = b;
-  precondition(rest_, step_);
-  step_.scale(1.0 / centre);
-  x = step_;
+  precondition(rest, product_);
+  advance(1.0 / centre, 0.0, x);
   for (int k = 1; k < degree; ++k) {
-    find_rest();
+    grid_.subtract_product(matrix_, step_, k == 1 ? rest : rest_, rest_);
     precondition(rest_, product_);
     const double next = 1.0 / (2.0 * sigma - rho);
-    step_.update(2.0 * next / radius, product_, next * rho);
-    x.update(1.0, step_);
+    advance(2.0 * next / radius, next * rho, x);
     rho = next;
   }
 }
 
+// A new step, from the product and from the step before unless that has no part.
+void BlockSmoother::advance(double of_product, double of_step, Vector& x) {
+  const auto product = std::as_const(product_).values();
+  const auto step = step_.values();
+  const auto to = x.values();
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    step[i] = of_product * product[i] + (of_step == 0.0 ? 0.0 : of_step * step[i]);
+    to[i] += step[i];
+  }
+}
+
 const Vector& BlockSmoother::find_rest() {
-  grid_.multiply(rounded_, step_, product_);
-  rest_.update(-1.0, product_);
+  grid_.subtract_product(matrix_, step_, rest_, rest_);
   return rest_;
 }
 

@@ -25,25 +25,31 @@ class BlockSmoother {
   void refresh();
   /// Whether a node has no block that can be inverted, and is left as it is.
   bool leaves(int node) const { return leaves_[static_cast<std::size_t>(node)]; }
-  /// Inverse block of a node, row after row; zero where it is left.
-  const double* inverse(int node) const {
+  /// Inverse block of a node, column after column; zero where it is left.
+  const float* inverse(int node) const {
     return inverse_.data() + first_[static_cast<std::size_t>(node)];
   }
   /// Of D^-1 A, from below.
   double largest_eigenvalue() const { return largest_; }
   /// x from an x = 0, for A x = b. Collective.
   void smooth(const assembly::Vector& b, assembly::Vector& x);
+  /// x from the x that is there. Collective.
+  void smooth_further(const assembly::Vector& b, assembly::Vector& x);
   /// b - A x after that. Collective; once.
   const assembly::Vector& find_rest();
 
  private:
   double find_largest();
+  void improve(const assembly::Vector& rest, assembly::Vector& x);
+  void advance(double of_product, double of_step, assembly::Vector& x);
   void precondition(const assembly::Vector& r, assembly::Vector& z);
 
   const GridLevel& grid_;
   std::vector<std::size_t> first_;
-  std::vector<double> inverse_;
-  std::vector<float> rounded_;  // the matrix; enough for steps, which are not smooth
+  // In single precision, as the matrix of the steps: it is enough for these, as they are not
+  // smooth, and they wait for memory.
+  std::vector<float> inverse_;
+  RoundedMatrix matrix_;
   std::vector<bool> leaves_;
   std::optional<PatchModes> modes_;
   double largest_ = 1.0;  // of D^-1 A

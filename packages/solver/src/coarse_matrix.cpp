@@ -278,7 +278,9 @@ GroupedMatrix over_columns(const NodeBlocks& rows, const Map& columns) {
       }
     }
   }
-  return {std::move(first_row), std::move(first_column), std::move(list), std::move(values)};
+  values.shrink_to_fit();
+  return {RowGroups(std::move(first_row), std::move(first_column), std::move(list)),
+          std::move(values)};
 }
 
 }  // namespace culm::solver

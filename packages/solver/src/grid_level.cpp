@@ -79,8 +79,9 @@ void GridLevel::multiply(const Vector& x, Vector& y) const {
   rows_.multiply(of_all_columns(x), y.values());
 }
 
-void GridLevel::multiply(std::span<const float> rounded, const Vector& x, Vector& y) const {
-  rows_.multiply(rounded, of_all_columns(x), y.values());
+void GridLevel::subtract_product(const RoundedMatrix& rounded, const Vector& x, const Vector& b,
+                                 Vector& y) const {
+  rounded.subtract_product(of_all_columns(x), b.values(), y.values());
 }
 
 }  // namespace culm::solver

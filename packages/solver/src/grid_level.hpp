@@ -44,9 +44,9 @@ class GridLevel {
   std::vector<bool> share(const std::vector<bool>& marks) const;
   /// y = A x; collective.
   void multiply(const assembly::Vector& x, assembly::Vector& y) const;
-  /// The same with rounded values of `rows`.
-  void multiply(std::span<const float> rounded, const assembly::Vector& x,
-                assembly::Vector& y) const;
+  /// y = b - A x, by a rounded copy of `rows`; collective. @param b  may be y
+  void subtract_product(const RoundedMatrix& rounded, const assembly::Vector& x,
+                        const assembly::Vector& b, assembly::Vector& y) const;
 
  private:
   std::span<const double> of_all_columns(const assembly::Vector& x) const;

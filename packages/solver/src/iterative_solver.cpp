@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace culm::solver {
 namespace {
@@ -42,6 +43,20 @@ constexpr double largest_asymmetry = 1e-12;
 
 constexpr LinearResidual useless{1.0};
 
+std::vector<std::size_t> places_of_diagonal(const CrsMatrix& matrix) {
+  const auto local = matrix.getLocalMatrixHost();
+  std::vector<std::size_t> places;
+  for (int row = 0; row < local.numRows(); ++row) {
+    const int diagonal =
+        matrix.getColMap()->getLocalElement(matrix.getRowMap()->getGlobalElement(row));
+    const auto at = static_cast<std::size_t>(row);
+    for (auto k = local.graph.row_map(at); k < local.graph.row_map(at + 1); ++k) {
+      if (local.graph.entries(k) == diagonal) places.push_back(k);
+    }
+  }
+  return places;
+}
+
 class IterativeSolver final : public LinearSolver {
  public:
   IterativeSolver(const Teuchos::RCP<const CrsMatrix>& matrix, ModelBehind model,
@@ -51,7 +66,8 @@ class IterativeSolver final : public LinearSolver {
         comm_(comm),
         symmetry_(matrix),
         check_(matrix, comm),
-        correction_(assembly::rows_of(matrix->getRowMap())) {}
+        correction_(assembly::rows_of(matrix->getRowMap())),
+        diagonal_(places_of_diagonal(*matrix)) {}
 
   std::string name() const override { return "Iterative"; }
 
@@ -130,14 +146,7 @@ class IterativeSolver final : public LinearSolver {
   double sum_of_diagonal() const {
     const auto local = matrix_->getLocalMatrixHost();
     double sum = 0.0;
-    for (int row = 0; row < local.numRows(); ++row) {
-      const int diagonal =
-          matrix_->getColMap()->getLocalElement(matrix_->getRowMap()->getGlobalElement(row));
-      const auto at = static_cast<std::size_t>(row);
-      for (auto k = local.graph.row_map(at); k < local.graph.row_map(at + 1); ++k) {
-        if (local.graph.entries(k) == diagonal) sum += std::abs(local.values(k));
-      }
-    }
+    for (const std::size_t place : diagonal_) sum += std::abs(local.values(place));
     return comm_.sum(sum);
   }
 
@@ -259,6 +268,7 @@ class IterativeSolver final : public LinearSolver {
   SymmetryCheck symmetry_;
   ResidualCheck check_;
   Vector correction_;
+  std::vector<std::size_t> diagonal_;  // places among the values on this rank
   std::unique_ptr<Multigrid> multigrid_;
   std::unique_ptr<LinearSolver> direct_;  // where the iteration did not converge in this step
   std::vector<long long> sizes_;          // of the grids

@@ -56,16 +56,12 @@ double rows_of(const assembly::CrsMatrix& matrix) {
 struct Multigrid::Level {
   Level(Teuchos::RCP<const assembly::CrsMatrix> matrix, const std::vector<int>& widths,
         NearNullSpace rigid, const parallel::Comm& comm)
-      : grid(std::move(matrix), widths, std::move(rigid), comm),
-        smoother(grid),
-        rest(assembly::rows_of(grid.matrix()->getRowMap())),
-        correction(rest.rows()) {}
+      : grid(std::move(matrix), widths, std::move(rigid), comm), smoother(grid) {}
 
   GridLevel grid;
   BlockSmoother smoother;
   GroupedMatrix prolongation;  // to this grid, over the columns of the next matrix
   Teuchos::RCP<const assembly::CrsMatrix> next;
-  Vector rest, correction;
   std::optional<Vector> coarse_rhs, coarse_solution, coarse_columns;
 };
 
@@ -120,7 +116,7 @@ void Multigrid::refresh() { levels_.front()->smoother.refresh(); }
 
 void Multigrid::multiply(const Vector& x, Vector& y) const { levels_.front()->grid.multiply(x, y); }
 
-void Multigrid::prolong(std::size_t level, const Vector& coarse, Vector& x) const {
+void Multigrid::add_prolonged(std::size_t level, const Vector& coarse, Vector& x) const {
   Level& l = *levels_[level];
   const auto importer = l.next->getGraph()->getImporter();
   if (importer.is_null()) {
@@ -128,7 +124,7 @@ void Multigrid::prolong(std::size_t level, const Vector& coarse, Vector& x) cons
   } else {
     tpetra(*l.coarse_columns).doImport(tpetra(coarse), *importer, Tpetra::INSERT);
   }
-  l.prolongation.multiply(l.coarse_columns->values(), x.values());
+  l.prolongation.add_product(std::as_const(*l.coarse_columns).values(), x.values());
 }
 
 void Multigrid::cycle(std::size_t level, const Vector& b, Vector& x) {
@@ -148,12 +144,8 @@ void Multigrid::cycle(std::size_t level, const Vector& b, Vector& x) {
     tpetra(*l.coarse_rhs).doExport(tpetra(*l.coarse_columns), *importer, Tpetra::ADD);
   }
   cycle(level + 1, *l.coarse_rhs, *l.coarse_solution);
-  prolong(level, *l.coarse_solution, l.correction);
-  x.update(1.0, l.correction);
-  l.grid.multiply(x, l.rest);
-  l.rest.update(1.0, b, -1.0);
-  l.smoother.smooth(l.rest, l.correction);
-  x.update(1.0, l.correction);
+  add_prolonged(level, *l.coarse_solution, x);
+  l.smoother.smooth_further(b, x);
 }
 
 void Multigrid::apply(const Vector& b, Vector& x) { cycle(0, b, x); }
@@ -162,8 +154,8 @@ void Multigrid::weakest_direction(Vector& v) {
   Vector coarse(assembly::rows_of(coarsest_matrix_->getRowMap()));
   coarsest_->weakest_direction(coarse);
   for (std::size_t level = levels_.size(); level-- > 0;) {
-    Vector fine(levels_[level]->rest.rows());
-    prolong(level, coarse, fine);
+    Vector fine(assembly::rows_of(levels_[level]->grid.matrix()->getRowMap()));
+    add_prolonged(level, coarse, fine);
     coarse = std::move(fine);
   }
   v = coarse;

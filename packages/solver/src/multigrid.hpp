@@ -44,7 +44,7 @@ class Multigrid {
 
   bool is_worth_factors(double memory, const parallel::Comm& comm);
   void cycle(std::size_t level, const assembly::Vector& b, assembly::Vector& x);
-  void prolong(std::size_t level, const assembly::Vector& coarse, assembly::Vector& x) const;
+  void add_prolonged(std::size_t level, const assembly::Vector& coarse, assembly::Vector& x) const;
 
   std::vector<std::unique_ptr<Level>> levels_;
   std::unique_ptr<LinearSolver> coarsest_;

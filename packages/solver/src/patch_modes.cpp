@@ -185,11 +185,11 @@ PatchModes::PatchModes(const GridLevel& grid, const std::vector<bool>& carried,
   std::vector<int> first_row{0};
   std::vector<std::size_t> first_column{0};
   std::vector<int> columns;
-  std::vector<double> values;
+  std::vector<float> values;
   for (int node = 0; node < grid.nodes(); ++node) {
     for (const Patch& patch : patches_from(node, couplings)) {
       if (std::ranges::any_of(patch, is_left_out)) continue;
-      const Eigen::MatrixXd modes = find_modes(patch, grid, couplings);
+      const Eigen::MatrixXf modes = find_modes(patch, grid, couplings).cast<float>();
       if (modes.cols() == 0) continue;
       for (int member : patch) {
         for (int k = 0; k < grid.width(member); ++k) {
@@ -205,7 +205,8 @@ PatchModes::PatchModes(const GridLevel& grid, const std::vector<bool>& carried,
   if (count_ == 0) return;
   columns.shrink_to_fit();
   values.shrink_to_fit();
-  modes_ = {std::move(first_row), std::move(first_column), std::move(columns), std::move(values)};
+  modes_ = {RowGroups(std::move(first_row), std::move(first_column), std::move(columns)),
+            std::move(values)};
 }
 
 void PatchModes::add(const assembly::Vector& r, assembly::Vector& z) {

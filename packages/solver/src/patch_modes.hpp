@@ -29,7 +29,7 @@ class PatchModes {
 
  private:
   const GridLevel& grid_;
-  GroupedMatrix modes_;  // a row for each, with v^T A v = 1, over the columns of the matrix
+  RoundedMatrix modes_;  // a row for each, with v^T A v = 1, over the columns of the matrix
   long long count_ = 0;
   assembly::Vector columns_, sums_;  // of all local columns
   assembly::Vector sum_;

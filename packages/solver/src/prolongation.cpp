@@ -163,7 +163,8 @@ NodeBlocks smooth(const NodeBlocks& rows, const GridLevel& grid, const BlockSmoo
       }
       k += index(width);
     }
-    const Eigen::Map<const RowMajor> inverse(smoother.inverse(node), height, height);
+    const Eigen::MatrixXd inverse =
+        Eigen::Map<const Eigen::MatrixXf>(smoother.inverse(node), height, height).cast<double>();
     for (Sum& sum : sums) sum.value = -damping * (inverse * sum.value);
     for (std::size_t b = rows.first[index(node)]; b < rows.first[index(node) + 1]; ++b) {
       const NodeBlocks::Block& block = rows.blocks[b];

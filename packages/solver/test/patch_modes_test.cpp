@@ -116,7 +116,7 @@ TEST(PatchModes, InvertTheirPatch) {
   grid.multiply(x, force);
   modes.add(force, back);
   back.update(-1.0, x);
-  EXPECT_LT(back.largest(), 1e-9 * x.largest());
+  EXPECT_LT(back.largest(), 1e-6 * x.largest());  // single precision
 }
 
 TEST(PatchModes, AreSymmetricAndTheSameOnAnyNumberOfRanks) {
