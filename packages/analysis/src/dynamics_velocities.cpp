@@ -28,7 +28,7 @@ double find_fastest(const assembly::System& system, const model::Coordinates& ve
 
 assembly::System::Solve mass_solver(Context& context, const model::State& state) {
   return [&](const assembly::Vector& b, assembly::Vector& x) {
-    if (!context.linear.factor() || !context.linear.solve(b, x).is_sound()) {
+    if (!context.linear.factor_for(b) || !context.linear.solve(b, x).is_sound()) {
       PostMortem::refuse_massless(context, state);
     }
   };
@@ -174,7 +174,7 @@ std::optional<assembly::VelocityFit> Dynamics::find_fitting(model::Coordinates& 
   const assembly::VelocityFit fit = system().project_velocity(
       state(), probe(),
       [&](const assembly::Vector& b, assembly::Vector& x) {
-        sound = linear.factor() && linear.solve(b, x).is_sound();
+        sound = linear.factor_for(b) && linear.solve(b, x).is_sound();
         if (!sound) x.fill(0.0);
         solution = x;
       },

@@ -14,7 +14,7 @@ Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
   for (model::Batch* batch : model.batches()) {
     batch->place(place(*batch, unknowns), unknowns.form());
   }
-  runs_ = {};
+  runs_ = std::vector<std::vector<std::pair<int, int>>>();  // {} would keep the memory
 }
 
 // Blocks that share an item, each block with itself; sorted.

@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 namespace culm::solver {
 namespace {
@@ -75,6 +77,12 @@ template <class Visit>
   }
 }
 
+// Room for so many numbers and for what is read behind them.
+void resize(std::vector<Packs<1>>& packs, std::size_t numbers) {
+  if (numbers > 0) numbers += numbers_behind;
+  packs.assign((numbers + pack_lanes - 1) / pack_lanes, Packs<1>());
+}
+
 }  // namespace
 
 BlockLu::BlockLu(const BlockRows& rows, int kept, std::size_t cached)
@@ -84,43 +92,55 @@ BlockLu::BlockLu(const BlockRows& rows, int kept, std::size_t cached)
 }
 
 bool BlockLu::factor() {
-  return host_.empty() ? factor_with_new_hosts() : factor_as_planned(rest_of_rounding);
+  keep_lower(true);
+  return factor_numbers({});
 }
 
 bool BlockLu::factor_and_reduce(std::span<const double> x) {
-  if (!host_.empty()) {
-    take(x);
-    return factor_as_planned(rest_of_rounding, true);
-  }
-  if (!factor_with_new_hosts()) return false;
-  take(x);
-  for (const BlockPlan::Panel& panel : eliminated()) reduce_by(panel);
-  return true;
+  keep_lower(std::exchange(reduces_again_, false));
+  return factor_numbers(x);
 }
 
 bool BlockLu::factor_with_new_hosts() {
-  const std::vector<int> hosts = choose_hosts(rows_, first_kept_);
-  return factor_and_merge(hosts, good_pivot) || factor_and_merge(hosts, rest_of_rounding);
+  keep_lower(true);
+  return factor_with_chosen_hosts({});
 }
 
-bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least) {
+bool BlockLu::factor_numbers(const ToReduce& x) {
+  return host_.empty() ? factor_with_chosen_hosts(x) : factor_as_planned(rest_of_rounding, x);
+}
+
+bool BlockLu::factor_with_chosen_hosts(const ToReduce& x) {
+  const std::vector<int> hosts = choose_hosts(rows_, first_kept_);
+  return factor_and_merge(hosts, good_pivot, x) || factor_and_merge(hosts, rest_of_rounding, x);
+}
+
+bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least, const ToReduce& x) {
   host_ = hosts;
   plan();
   for (int merged = 0; merged < most_merged; ++merged) {
-    if (factor_as_planned(least)) return true;
+    if (factor_as_planned(least, x)) return true;
     if (!merge_failed()) return false;
     plan();
   }
-  return factor_as_planned(least);
+  return factor_as_planned(least, x);
+}
+
+// What only later reductions read is neither written nor given memory before there are any.
+void BlockLu::keep_lower(bool wanted) {
+  keeps_lower_ = wanted;
+  if (!wanted) lower_ = std::vector<Packs<1>>();  // {} would keep the memory
+  if (wanted && has_bench() && lower_.empty()) resize(lower_, plan_.num_lower);
 }
 
 // Pivots have to exceed so much of what has been on the diagonal.
-bool BlockLu::factor_as_planned(double least, bool reduces) {
+bool BlockLu::factor_as_planned(double least, const ToReduce& x) {
+  if (x) take(*x);
   failed_ = nullptr;
   noted_ = 0;
   for (const BlockPlan::Panel& panel : eliminated()) {
     if (!eliminate(panel, least)) return false;
-    if (reduces) {
+    if (x) {
       reduce_by(panel, bench() + panel.pivot, panel.stride(), bench() + panel.below);
     }
   }
@@ -165,11 +185,11 @@ bool BlockLu::set_hosts(std::span<const int> host) {
 void BlockLu::plan() {
   plan_ = plan_blocks(rows_, host_, first_kept_, cached_);
   const std::size_t rows = plan_.unknown.size();
-  const auto resize = [](std::vector<Packs<1>>& packs, std::size_t numbers) {
-    packs.assign((numbers + pack_lanes - 1) / pack_lanes, Packs<1>());
-  };
-  resize(bench_, has_bench() ? plan_.bench_size + numbers_behind : 0);
-  resize(factors_, plan_.num_values + numbers_behind);
+  resize(bench_, has_bench() ? plan_.bench_size : 0);
+  resize(factors_, plan_.num_values);
+  lower_.clear();
+  keep_lower(keeps_lower_);
+  reciprocals_.assign(rows, 0.0);
   before_.assign(rows, 0.0);
   exchanged_.assign(rows, 0);
   x_.assign(rows, 0.0);
@@ -327,6 +347,9 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
     failed_ = &panel;
     return false;
   }
+  for (int i = 0; i < panel.size; ++i) {
+    reciprocals_[index(panel.first + i)] = bench()[panel.pivot + index(i * (panel.stride() + 1))];
+  }
   update(panel, before(panel).updates);
   if (has_bench()) {
     with_sizes(panel, [&](auto size, auto width) { put_away(panel, size, width); });
@@ -340,9 +363,10 @@ template <class Size, class Width>
                                                      Width width) {
   const double* rows = bench() + panel.pivot;
   double* V = factors() + panel.V;
-  double* D = factors() + panel.D;
+  double* D = keeps_lower_ ? numbers_of(lower_) + panel.D : nullptr;
   const auto put = [&](const auto& copy) __attribute__((always_inline)) {
     for (int r = 0; r < size; ++r) copy(rows + r * (size + width) + size, width, V + r * width);
+    if (!keeps_lower_) return;
     for (int r = 0; r < size; ++r) copy(rows + r * (size + width), size, D + r * size);
     for (int r = 0; r < width; ++r) {
       copy(bench() + panel.below + r * size, size, D + (size + r) * size);
@@ -361,7 +385,7 @@ template <class Size, class Width>
     copy_past_cache(nothing, end - count, to + count);
   };
   fill_line(size * width, V);
-  fill_line(size * (size + width), D);
+  if (keeps_lower_) fill_line(size * (size + width), D);
 }
 
 void BlockLu::solve(std::span<double> x) {
@@ -375,6 +399,13 @@ std::span<const double> BlockLu::remainder() const {
 }
 
 void BlockLu::reduce(std::span<double> x) {
+  if (has_bench() && !keeps_lower_) {
+    keep_lower(true);
+    if (!factor_as_planned(rest_of_rounding, {})) {
+      throw std::logic_error("BlockLu: the matrix has changed since it was factored");
+    }
+  }
+  reduces_again_ = true;
   take(x);
   for (const BlockPlan::Panel& panel : eliminated()) reduce_by(panel);
   put_kept(x);
@@ -387,7 +418,7 @@ void BlockLu::take(std::span<const double> x) {
 }
 
 void BlockLu::reduce_by(const BlockPlan::Panel& panel) {
-  reduce_by(panel, factors() + panel.D, stride_of_D(panel), factors() + panel.L);
+  reduce_by(panel, lower() + panel.D, stride_of_D(panel), lower() + panel.L);
 }
 
 // The same code whenever it is called, so that a solution does not depend on it.
@@ -460,7 +491,7 @@ Determinant BlockLu::determinant() const {
   int negative = 0, exchanges = 0;
   for (const BlockPlan::Panel& panel : eliminated()) {
     for (int i = 0; i < panel.size; ++i) {
-      const double reciprocal = factors()[panel.D + index(i) * index(stride_of_D(panel) + 1)];
+      const double reciprocal = reciprocals_[index(panel.first + i)];
       if (reciprocal < 0.0) ++negative;
       if (exchanged_[index(panel.first + i)] != i) ++exchanges;
       d.log_size -= std::log(std::abs(reciprocal));

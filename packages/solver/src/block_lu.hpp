@@ -6,6 +6,7 @@
 
 #include "block_plan.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,9 @@ class BlockLu {
   /// or entries grow too much; the matrix may yet have factors with other pivots
   bool factor();
   /// The same, and reduces x on the way, while the factors of each block are at hand; then
-  /// `put_kept` and `extend` finish the solution.
+  /// `put_kept` and `extend` finish the solution. Large factors are not kept whole then, unless
+  /// more was reduced by those before: that costs another factorisation, of the same values, which
+  /// the matrix must still have.
   bool factor_and_reduce(std::span<const double> x);
   /// The same with hosts that are chosen by the present values.
   bool factor_with_new_hosts();
@@ -67,10 +70,15 @@ class BlockLu {
   const double* bench() const { return numbers_of(has_bench() ? bench_ : factors_); }
   double* factors() { return numbers_of(factors_); }
   const double* factors() const { return numbers_of(factors_); }
+  const double* lower() const { return numbers_of(has_bench() ? lower_ : factors_); }
   int stride_of_D(const BlockPlan::Panel& p) const { return has_bench() ? p.size : p.stride(); }
   int stride_of_V(const BlockPlan::Panel& p) const { return has_bench() ? p.width : p.stride(); }
-  bool factor_and_merge(const std::vector<int>& hosts, double least);
-  bool factor_as_planned(double least, bool reduces = false);
+  using ToReduce = std::optional<std::span<const double>>;
+  bool factor_numbers(const ToReduce& x);
+  bool factor_with_chosen_hosts(const ToReduce& x);
+  bool factor_and_merge(const std::vector<int>& hosts, double least, const ToReduce& x);
+  bool factor_as_planned(double least, const ToReduce& x);
+  void keep_lower(bool wanted);
   bool merge_failed();
   void plan();
   std::span<const BlockPlan::Panel> eliminated() const;
@@ -107,13 +115,17 @@ class BlockLu {
   std::vector<int> place_;                    ///< of each row
   std::vector<Packs<1>> bench_;               ///< where panels are made, see BlockPlan
   std::vector<Packs<1>> factors_;
-  std::vector<double> before_;      ///< by place: largest size of the diagonal so far
-  std::size_t noted_ = 0;           ///< places that `before_` knows
-  std::vector<int> exchanged_;      ///< by place: the row of the block it was exchanged with
-  std::vector<double> x_;           ///< by place
-  std::vector<double> beside_;      ///< of one panel
-  std::vector<double> row_weight_;  ///< of one panel
-  std::vector<Packs<1>> room_;      ///< of one panel
+  std::vector<Packs<1>> lower_;      ///< D and L that come from a bench
+  bool keeps_lower_ = true;          ///< of the factors that are there or being made
+  bool reduces_again_ = false;       ///< these served more than the x that came with them
+  std::vector<double> reciprocals_;  ///< by place: of pivots
+  std::vector<double> before_;       ///< by place: largest size of the diagonal so far
+  std::size_t noted_ = 0;            ///< places that `before_` knows
+  std::vector<int> exchanged_;       ///< by place: the row of the block it was exchanged with
+  std::vector<double> x_;            ///< by place
+  std::vector<double> beside_;       ///< of one panel
+  std::vector<double> row_weight_;   ///< of one panel
+  std::vector<Packs<1>> room_;       ///< of one panel
 };
 
 }  // namespace culm::solver

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace culm::solver {
 namespace {
@@ -256,15 +257,14 @@ class Planner {
   }
 
   void place_factors(std::size_t num_eliminated) {
-    const auto take = [&](int numbers) {
-      const std::size_t at = plan_.num_values;
-      plan_.num_values += whole_lines(index(numbers));
-      return at;
+    const auto take = [](int numbers, std::size_t& end) {
+      return std::exchange(end, end + whole_lines(index(numbers)));
     };
     const std::span panels(plan_.panels.data(), num_eliminated);
-    for (auto p = panels.rbegin(); p != panels.rend(); ++p) p->V = take(p->size * p->width);
+    for (auto p = panels.rbegin(); p != panels.rend(); ++p)
+      p->V = take(p->size * p->width, plan_.num_values);
     for (BlockPlan::Panel& p : panels) {
-      p.D = take(p.size * p.stride());
+      p.D = take(p.size * p.stride(), plan_.num_lower);
       p.L = p.D + index(p.size) * index(p.size);
     }
   }

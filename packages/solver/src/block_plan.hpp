@@ -33,7 +33,8 @@ struct BlockPlan {
     std::size_t beside = 0;  ///< its part of `beside`
     std::size_t pivot = 0;   ///< [D U] where it is made
     std::size_t below = 0;   ///< L where it is made
-    /// D, V and L where they stay.
+    /// D, V and L where they stay; V and the others are counted each for themselves where they come
+    /// from a bench.
     std::size_t D = 0;
     std::size_t V = 0;
     std::size_t L = 0;
@@ -75,9 +76,10 @@ struct BlockPlan {
   };
   std::vector<Gap> gaps;
   std::size_t bench_size = 0;  ///< 0 without a bench
-  /// Of the factors. Those that come from a bench: first V of all panels, the one eliminated last
-  /// in front, as solutions read them.
+  /// Of the factors; of those that come from a bench V alone, that of the panel eliminated last in
+  /// front, as solutions read them.
   std::size_t num_values = 0;
+  std::size_t num_lower = 0;  ///< D and L that come from a bench
 };
 
 /// More numbers come from memory, and not from a cache.

@@ -73,7 +73,7 @@ Mumps::Mumps(const assembly::CrsMatrix& pattern, Symmetry symmetry, std::vector<
   take_pattern(
       pattern, [&](int row) { return rows.getGlobalElement(row); },
       [&](int column) { return columns.getGlobalElement(column); });
-  if (symmetry == Symmetry::none) sources_ = {};
+  if (symmetry == Symmetry::none) sources_ = std::vector<std::size_t>();  // {} would keep memory
 }
 
 Mumps::Mumps(const BlockRows& pattern, int kept, Symmetry symmetry, std::vector<int> place)
