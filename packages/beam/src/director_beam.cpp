@@ -42,7 +42,7 @@ DirectorBeam<Order>::DirectorBeam(const Nodes& reference,
     point.N = Shape::values(rule[g].xi);
     point.dN = dN / J;
     point.length = rule[g].weight * J;
-    point.weighted_stiffness = point.length * stiffness[g];
+    point.stiffness = stiffness[g];
     point.reference = absolute_strain(point, reference);
   }
   const auto mass_rule = gauss_legendre(num_mass_points);
@@ -50,7 +50,8 @@ DirectorBeam<Order>::DirectorBeam(const Nodes& reference,
     const double J =
         axis_jacobian<num_nodes, num_slots>(Shape::derivatives(mass_rule[g].xi), reference);
     mass_points_[g].N = Shape::values(mass_rule[g].xi);
-    mass_points_[g].mass = mass_rule[g].weight * J * mass[g];
+    mass_points_[g].length = mass_rule[g].weight * J;
+    mass_points_[g].mass = mass[g];
   }
 }
 
@@ -125,7 +126,7 @@ template <int Order>
 Verdict DirectorBeam<Order>::respond(int point, const Strain& prev, const Strain& next,
                                      const Stencil& stencil,
                                      Response<num_strains>& response) const noexcept {
-  const Mat6& C = at(point).weighted_stiffness;
+  const Mat6 C = this->stiffness(point);
   const double weight = stencil.theta_strain;
   const Strain e = (1.0 - weight) * prev + weight * next;
   response.stress.noalias() = C * e;
@@ -135,7 +136,7 @@ Verdict DirectorBeam<Order>::respond(int point, const Strain& prev, const Strain
 
 template <int Order>
 double DirectorBeam<Order>::energy(int point, const Strain& e) const noexcept {
-  return 0.5 * e.dot(at(point).weighted_stiffness * e);
+  return 0.5 * at(point).length * e.dot(at(point).stiffness * e);
 }
 
 // Mh[(r,a),(s,b)] = Σ_g w J m3[r,s] N_a N_b
@@ -145,7 +146,7 @@ SlotMatrix<DirectorBeam<Order>::num_slots> DirectorBeam<Order>::mass() const noe
   for (const MassPoint& p : mass_points_) {
     for (int a = 0; a < num_nodes; ++a) {
       for (int b = 0; b < num_nodes; ++b) {
-        M.template block<3, 3>(4 * a, 4 * b) += p.N[a] * p.N[b] * p.mass;
+        M.template block<3, 3>(4 * a, 4 * b) += p.N[a] * p.N[b] * p.length * p.mass;
       }
     }
   }
@@ -154,7 +155,7 @@ SlotMatrix<DirectorBeam<Order>::num_slots> DirectorBeam<Order>::mass() const noe
 
 template <int Order>
 Vec6 DirectorBeam<Order>::resultants(int point, const Strain& e) const noexcept {
-  return at(point).weighted_stiffness * e / at(point).length;
+  return at(point).stiffness * e;
 }
 
 template class DirectorBeam<1>;

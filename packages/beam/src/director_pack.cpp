@@ -3,6 +3,9 @@
 #include <culm/math/vector_units.hpp>
 #include <culm/mechanics/pack_geometry.hpp>
 
+#include <cstring>
+#include <utility>
+
 namespace culm::beam {
 
 namespace {
@@ -79,14 +82,16 @@ CULM_INLINE void add_mean_strain(const typename DirectorPack<Order>::Point& p,
   }
 }
 
-// The symmetric matrix of a point in full.
+// The stiffness of the length that a point stands for, in full.
 template <int Order>
-CULM_INLINE void unpack_stiffness(const typename DirectorPack<Order>::Point& p, Pack* C) {
+CULM_INLINE void unpack_stiffness(const Pack& length,
+                                  const Packs<DirectorPack<Order>::entries(6)>& section, Pack* C) {
 #pragma GCC unroll 6
   for (int i = 0; i < 6; ++i) {
 #pragma GCC unroll 6
     for (int j = 0; j < 6; ++j) {
-      C[6 * i + j] = p.stiffness.numbers[DirectorPack<Order>::entry(6, i, j)];
+      C[6 * i + j] =
+          i <= j ? length * section.numbers[DirectorPack<Order>::entry(6, i, j)] : C[6 * j + i];
     }
   }
 }
@@ -201,6 +206,24 @@ CULM_INLINE void add_product(const Pack* C, double factor, const Pack* R_mid, co
   }
 }
 
+// The integral of the mass of the sections.
+template <int Order>
+CULM_INLINE void integrate_mass(const typename DirectorPack<Order>::Geometry& geometry,
+                                const typename DirectorPack<Order>::Sections& sections,
+                                typename DirectorPack<Order>::Mass& mass) {
+  constexpr int nodes = DirectorPack<Order>::entries(Order + 1);
+  constexpr int entries = DirectorPack<Order>::entries(3);
+  mass = {};
+  for (std::size_t g = 0; g <= Order; ++g) {
+    for (int ab = 0; ab < nodes; ++ab) {
+      const Pack length = geometry.NN[g][static_cast<std::size_t>(ab)] * geometry.mass_lengths[g];
+      for (int i = 0; i < entries; ++i) {
+        mass.numbers[entries * ab + i] += length * sections.mass[g].numbers[i];
+      }
+    }
+  }
+}
+
 // Calls visit(s, t, m) with the mass m between the slots s and t. The slot d3 carries none.
 template <int Order, class Visit>
 CULM_INLINE void for_masses(const Pack* mass, const Visit& visit) {
@@ -233,8 +256,8 @@ CULM_INLINE void add_inertia(const Pack* mass, const Pack* acceleration, double 
 }
 
 template <int Order>
-CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>::Points& points,
-                                             const typename DirectorPack<Order>::Mass& mass,
+CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>::Geometry& geometry,
+                                             const typename DirectorPack<Order>::Sections& sections,
                                              const PackMotion<Order + 1>& motion,
                                              const Pack* predicted, const Stencil& stencil,
                                              bool with_tangent, PackSum<Order + 1>& sum) noexcept {
@@ -253,12 +276,12 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
   Pack A[16 * N * N] = {};
   if (with_tangent) sum.tangent = {};
   for (std::size_t g = 0; g < Order; ++g) {
-    const auto& p = points[g];
+    const auto& p = geometry.points[g];
     const PackFrame<Order> next_frame(p, motion.next.data());
     const PackFrame<Order> mid_frame(p, mid);
     Pack C[36], e[6] = {}, stress[6];
     add_mean_strain<Order>(p, motion, next_frame, stencil, e);
-    unpack_stiffness<Order>(p, C);
+    unpack_stiffness<Order>(p.length, sections.stiffness[g], C);
     compute_stress(C, e, stress);
     add_force<Order>(p, mid_frame, stress, force);
     if (!with_tangent) continue;
@@ -284,6 +307,8 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
           motion.acceleration_offset[at] + stencil.inertia * (motion.next[at] - motion.prev[at]);
     }
     Pack inertia_force[12 * N] = {};
+    typename DirectorPack<Order>::Mass mass;
+    integrate_mass<Order>(geometry, sections, mass);
     add_inertia<Order>(mass.data(), acceleration, stencil.inertia, A, inertia_force);
     for (int c = 0; c < 12 * N; ++c) {
       force[c] += inertia_force[c];
@@ -308,31 +333,33 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
 }
 
 template <int Order>
-CULM_FOR_EACH_VECTOR_UNIT void extrapolate_pack(const typename DirectorPack<Order>::Points& points,
-                                                const PackMotion<Order + 1>& motion,
-                                                const Pack* increment, const Stencil& stencil,
-                                                Pack* stress) noexcept {
+CULM_FOR_EACH_VECTOR_UNIT void extrapolate_pack(
+    const typename DirectorPack<Order>::Geometry& geometry,
+    const typename DirectorPack<Order>::Sections& sections, const PackMotion<Order + 1>& motion,
+    const Pack* increment, const Stencil& stencil, Pack* stress) noexcept {
   for (std::size_t g = 0; g < Order; ++g) {
-    const auto& p = points[g];
+    const auto& p = geometry.points[g];
     const PackFrame<Order> next(p, motion.next.data());
     Pack C[36], e[6] = {};
     add_mean_strain<Order>(p, motion, next, stencil, e);
     add_strain_increment<Order>(next, PackFrame<Order>(p, increment), stencil.theta_strain, e);
-    unpack_stiffness<Order>(p, C);
+    unpack_stiffness<Order>(p.length, sections.stiffness[g], C);
     compute_stress(C, e, stress + 6 * g);
   }
 }
 
 template <int Order>
 CULM_FOR_EACH_VECTOR_UNIT void find_strain_energy(
-    const typename DirectorPack<Order>::Points& points, const Pack* slots, const Pack* less,
+    const typename DirectorPack<Order>::Geometry& geometry,
+    const typename DirectorPack<Order>::Sections& sections, const Pack* slots, const Pack* less,
     Pack* energy) noexcept {
   Pack twice = {};
-  for (const auto& p : points) {
+  for (std::size_t g = 0; g < Order; ++g) {
+    const auto& p = geometry.points[g];
     Pack C[36], e[6] = {}, stress[6];
     add_strain<Order>(p, PackFrame<Order>(p, slots), 1.0, e);
     if (less != nullptr) add_strain<Order>(p, PackFrame<Order>(p, less), -1.0, e);
-    unpack_stiffness<Order>(p, C);
+    unpack_stiffness<Order>(p.length, sections.stiffness[g], C);
     compute_stress(C, e, stress);
     for (int i = 0; i < 6; ++i) twice += e[i] * stress[i];
   }
@@ -341,9 +368,12 @@ CULM_FOR_EACH_VECTOR_UNIT void find_strain_energy(
 
 // T = 1/2 v . M v, L = sum of M v over positions, J = sum_s q_s x (M v)_s
 template <int Order>
-CULM_FOR_EACH_VECTOR_UNIT void find_pack_momentum(const typename DirectorPack<Order>::Mass& mass,
-                                                  const Pack* q, const Pack* v,
-                                                  PackMomentum& momentum) noexcept {
+CULM_FOR_EACH_VECTOR_UNIT void find_pack_momentum(
+    const typename DirectorPack<Order>::Geometry& geometry,
+    const typename DirectorPack<Order>::Sections& sections, const Pack* q, const Pack* v,
+    PackMomentum& momentum) noexcept {
+  typename DirectorPack<Order>::Mass mass;
+  integrate_mass<Order>(geometry, sections, mass);
   constexpr Pack one = {1, 1, 1, 1, 1, 1, 1, 1};
   Pack p[12 * (Order + 1)] = {};
   for_masses<Order>(
@@ -363,60 +393,73 @@ CULM_FOR_EACH_VECTOR_UNIT void find_pack_momentum(const typename DirectorPack<Or
 
 template <int Order>
 DirectorPack<Order>::DirectorPack(
-    const std::array<const DirectorBeam<Order>*, pack_lanes>& elements) {
+    const std::array<const DirectorBeam<Order>*, pack_lanes>& elements,
+    const DirectorPack* before) {
+  auto sections = std::make_shared<Sections>();
   for (int l = 0; l < pack_lanes; ++l) {
     const DirectorBeam<Order>& element = *elements[static_cast<std::size_t>(l)];
     for (int g = 0; g < Order; ++g) {
-      Point& point = points_[static_cast<std::size_t>(g)];
+      Point& point = geometry_.points[static_cast<std::size_t>(g)];
       for (int a = 0; a < num_nodes; ++a) {
         point.N[static_cast<std::size_t>(a)] = element.shape(g)[a];
         point.dN.of(l, a) = element.shape_derivative(g)[a];
       }
+      point.length[l] = element.length(g);
+      const auto& C = element.section_stiffness(g);
       for (int i = 0; i < 6; ++i) {
         point.reference.of(l, i) = element.reference_strain(g)[i];
         for (int j = i; j < 6; ++j) {
-          point.stiffness.of(l, entry(6, i, j)) =
-              0.5 * (element.stiffness(g)(i, j) + element.stiffness(g)(j, i));
+          sections->stiffness[static_cast<std::size_t>(g)].of(l, entry(6, i, j)) =
+              0.5 * (C(i, j) + C(j, i));
         }
       }
     }
-    const SlotMatrix<4 * num_nodes> mass = element.mass();
-    for (int a = 0; a < num_nodes; ++a) {
-      for (int b = a; b < num_nodes; ++b) {
-        const int between = entries(3) * entry(num_nodes, a, b);
-        for (int r = 0; r < 3; ++r) {
-          for (int q = r; q < 3; ++q) {
-            mass_.of(l, between + entry(3, r, q)) = mass(4 * a + r, 4 * b + q);
-          }
+    for (int g = 0; g < num_nodes; ++g) {
+      const auto& N = element.mass_shape(g);
+      for (int a = 0; a < num_nodes; ++a) {
+        for (int b = a; b < num_nodes; ++b) {
+          geometry_
+              .NN[static_cast<std::size_t>(g)][static_cast<std::size_t>(entry(num_nodes, a, b))] =
+              N[a] * N[b];
+        }
+      }
+      geometry_.mass_lengths.of(l, g) = element.mass_length(g);
+      const auto& mass = element.section_mass(g);
+      for (int r = 0; r < 3; ++r) {
+        for (int q = r; q < 3; ++q) {
+          sections->mass[static_cast<std::size_t>(g)].of(l, entry(3, r, q)) = mass(r, q);
         }
       }
     }
   }
+  const bool same = before != nullptr &&
+                    std::memcmp(before->sections_.get(), sections.get(), sizeof(Sections)) == 0;
+  sections_ = same ? before->sections_ : std::move(sections);
 }
 
 template <int Order>
 void DirectorPack<Order>::evaluate(const Motion& motion, const Pack* predicted,
                                    const Stencil& stencil, bool with_tangent,
                                    Sum& sum) const noexcept {
-  evaluate_pack<Order>(points_, mass_, motion, predicted, stencil, with_tangent, sum);
+  evaluate_pack<Order>(geometry_, *sections_, motion, predicted, stencil, with_tangent, sum);
 }
 
 template <int Order>
 void DirectorPack<Order>::extrapolate(const Motion& motion, const Pack* increment,
                                       const Stencil& stencil, Pack* stress) const noexcept {
-  extrapolate_pack<Order>(points_, motion, increment, stencil, stress);
+  extrapolate_pack<Order>(geometry_, *sections_, motion, increment, stencil, stress);
 }
 
 template <int Order>
 void DirectorPack<Order>::strain_energy(const Pack* slots, const Pack* less,
                                         Pack* energy) const noexcept {
-  find_strain_energy<Order>(points_, slots, less, energy);
+  find_strain_energy<Order>(geometry_, *sections_, slots, less, energy);
 }
 
 template <int Order>
 void DirectorPack<Order>::find_momentum(const Pack* slots, const Pack* velocity,
                                         PackMomentum& momentum) const noexcept {
-  find_pack_momentum<Order>(mass_, slots, velocity, momentum);
+  find_pack_momentum<Order>(geometry_, *sections_, slots, velocity, momentum);
 }
 
 template class DirectorPack<1>;

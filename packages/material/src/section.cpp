@@ -172,8 +172,12 @@ Section interpolate(const Section& a, const Section& b, double t) {
     return placed(interpolate(own(a), own(b), t), (1.0 - t) * a.angle + t * b.angle,
                   (1.0 - t) * a.offset + t * b.offset);
   }
-  Section result{(1.0 - t) * a.stiffness + t * b.stiffness,
-                 (1.0 - t) * a.mass + t * b.mass,
+  // without rounding where nothing changes, so that elements of a uniform beam are the same
+  const auto between = [t](const auto& start, const auto& end) {
+    return start == end ? start : ((1.0 - t) * start + t * end).eval();
+  };
+  Section result{between(a.stiffness, b.stiffness),
+                 between(a.mass, b.mass),
                  t < 0.5 ? a.outline : b.outline,
                  (1.0 - t) * a.expansion + t * b.expansion,
                  a.fibres,

@@ -50,7 +50,11 @@ class DirectorBeam {
   Verdict respond(int point, const Strain& prev, const Strain& next, const Stencil& stencil,
                   Response<num_strains>& response) const noexcept;
   /// w C of a point
-  const RowMat<6, 6>& stiffness(int point) const noexcept { return at(point).weighted_stiffness; }
+  RowMat<6, 6> stiffness(int point) const noexcept {
+    return at(point).length * at(point).stiffness;
+  }
+  /// C of a point, that of the section
+  const RowMat<6, 6>& section_stiffness(int point) const noexcept { return at(point).stiffness; }
   double energy(int point, const Strain& e) const noexcept;
   /// Consistent mass, eq. (1.10); the slots d3 carry none
   SlotMatrix<num_slots> mass() const noexcept;
@@ -75,6 +79,11 @@ class DirectorBeam {
   const Strain& reference_strain(int point) const noexcept { return at(point).reference; }
   /// Length of the reference axis that a Gauss point stands for, w_g J [m]
   double length(int point) const noexcept { return at(point).length; }
+  /// Mass of the section at one of the num_mass_points, the length that it stands for [m], and the
+  /// shape functions there
+  const Mat3& section_mass(int point) const noexcept { return mass_at(point).mass; }
+  double mass_length(int point) const noexcept { return mass_at(point).length; }
+  const Vec<num_nodes>& mass_shape(int point) const noexcept { return mass_at(point).N; }
   /// Shape functions at a Gauss point, shape (num_nodes)
   const Vec<num_nodes>& shape(int point) const noexcept { return at(point).N; }
   /// Their derivatives by arc length [1/m]
@@ -86,14 +95,18 @@ class DirectorBeam {
     Vec<num_nodes> dN;  // their derivatives by arc length, N' [1/m]
     double length;      // w_g J [m]
     Strain reference;
-    RowMat<6, 6> weighted_stiffness;  // w_g J C
+    RowMat<6, 6> stiffness;
   };
   struct MassPoint {
     Vec<num_nodes> N;
-    Mat3 mass;  // w_g J m3
+    double length;  // w_g J [m]
+    Mat3 mass;
   };
 
   const Point& at(int point) const noexcept { return points_[static_cast<std::size_t>(point)]; }
+  const MassPoint& mass_at(int point) const noexcept {
+    return mass_points_[static_cast<std::size_t>(point)];
+  }
   static Strain absolute_strain(const Point& point, const Nodes& q) noexcept;
 
   std::array<Point, num_points> points_;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <culm/beam/director_beam.hpp>
+#include <culm/math/fetch.hpp>
 #include <culm/mechanics/pack.hpp>
 
 #include <array>
+#include <memory>
 
 namespace culm::beam {
 
@@ -17,7 +19,9 @@ class DirectorPack {
   using Motion = PackMotion<num_nodes>;
   using Sum = PackSum<num_nodes>;
 
-  explicit DirectorPack(const std::array<const DirectorBeam<Order>*, pack_lanes>& elements);
+  /// @param before  another pack; where sections are the same, this one reads them there
+  DirectorPack(const std::array<const DirectorBeam<Order>*, pack_lanes>& elements,
+               const DirectorPack* before);
 
   /// @see ComesInPacks
   /// @param predicted  stress that the tangent is to have, shape (Order, 6), or nullptr
@@ -34,6 +38,11 @@ class DirectorPack {
   void find_momentum(const Pack* slots, const Pack* velocity,
                      PackMomentum& momentum) const noexcept;
 
+  /// Asks the memory for what is not read of the pack itself, unless the one before read it, too.
+  [[gnu::always_inline]] void fetch_shared(const DirectorPack& before) const {
+    if (sections_ != before.sections_) fetch(sections_.get(), sizeof(Sections));
+  }
+
   /// Where the entry (i, j) of a symmetric matrix of n rows is among those on and above the
   /// diagonal, by rows.
   static constexpr int entry(int n, int i, int j) {
@@ -46,16 +55,27 @@ class DirectorPack {
     std::array<double, num_nodes> N;
     Packs<num_nodes> dN;
     Packs<6> reference;
-    Packs<entries(6)> stiffness;  ///< see entry
+    Pack length;
   };
-  using Points = std::array<Point, Order>;
+  /// Of the elements themselves.
+  struct Geometry {
+    std::array<Point, Order> points;
+    Packs<num_nodes> mass_lengths;  ///< of the points at which mass is integrated
+    /// Products of the shape functions there, of each two nodes a <= b.
+    std::array<std::array<double, entries(num_nodes)>, num_nodes> NN;
+  };
+  /// Of their sections, see entry: those of a uniform beam are the same for all of its packs.
+  struct Sections {
+    std::array<Packs<entries(6)>, Order> stiffness;
+    std::array<Packs<entries(3)>, num_nodes> mass;
+  };
   /// Scalars between the slots x, d1, d2 of each two nodes a <= b: a symmetric matrix of three rows
   /// for each entry (a, b) of a symmetric matrix of num_nodes rows.
   using Mass = Packs<entries(3) * entries(num_nodes)>;
 
  private:
-  Points points_;
-  Mass mass_;
+  Geometry geometry_;
+  std::shared_ptr<const Sections> sections_;
 };
 
 extern template class DirectorPack<1>;

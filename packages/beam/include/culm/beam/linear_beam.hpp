@@ -43,7 +43,7 @@ class LinearBeam {
     return base_.respond(point, prev, next, stencil, response);
   }
   /// w C of a point
-  const RowMat<6, 6>& stiffness(int point) const noexcept { return base_.stiffness(point); }
+  RowMat<6, 6> stiffness(int point) const noexcept { return base_.stiffness(point); }
   double energy(int point, const Strain& e) const noexcept { return base_.energy(point, e); }
   SlotMatrix<num_slots> mass() const noexcept;
 

@@ -67,7 +67,8 @@ struct PackMomentum {
 };
 
 /// Elements of triads whose law is linear, and that come in packs: E::Pack holds the constants of
-/// pack_lanes elements; its functions are what ElementBatch does for one of them.
+/// pack_lanes elements, some perhaps with the pack before; its functions are what ElementBatch does
+/// for one of them.
 template <class E>
 concept ComesInPacks = HasStiffness<E> &&
     requires(const typename E::Pack& pack, const PackMotion<E::num_nodes>& motion,
@@ -86,6 +87,7 @@ concept ComesInPacks = HasStiffness<E> &&
   // numbers: slots and their velocities
   { pack.find_momentum(numbers, numbers, momentum) }
   noexcept->std::same_as<void>;
+  { pack.fetch_shared(pack) } -> std::same_as<void>;
 };
 
 }  // namespace culm

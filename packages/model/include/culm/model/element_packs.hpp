@@ -43,7 +43,7 @@ class ElementPacks {
         elements[l] = &one.element;
         lanes[l] = one.nodes;
       }
-      packs_.emplace_back(elements);
+      packs_.emplace_back(elements, packs_.empty() ? nullptr : &packs_.back());
       nodes_.push_back(lanes);
     }
     stress_.clear();
@@ -147,8 +147,8 @@ class ElementPacks {
     for (std::size_t i = first; i < end; ++i) visit(i, static_cast<int>(i - first));
   }
 
-  // Asks the memory for a pack and for where its elements are, while the one before is evaluated.
-  // Inlined, as compilers leave a function out that does nothing else.
+  // Asks the memory for a pack that follows another one and for where its elements are, while the
+  // one before is evaluated. Inlined, as compilers leave a function out that does nothing else.
   [[gnu::always_inline]] void fetch_pack(std::size_t pack,
                                          const std::array<const Coordinates*, 3>& all_read) const {
     constexpr std::size_t share = sizeof(typename E::Pack) / pack_lanes;
@@ -162,6 +162,7 @@ class ElementPacks {
         }
       }
     }
+    packs_[pack].fetch_shared(packs_[pack - 1]);
     if (is_extrapolated_) fetch(&stress_[pack], sizeof(Packs<num_values>));
   }
 
