@@ -29,8 +29,6 @@ constexpr Polynomial with_modes{3, 20.0};
 constexpr double margin = 1.1;  // of the largest eigenvalue, found from below
 constexpr int lanczos_steps = 12;
 
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 // z = B r, with the columns of B one after the other.
 template <class Width>
 [[gnu::always_inline]] inline void multiply_columns(const float* column, Width width,
@@ -93,21 +91,27 @@ void BlockSmoother::refresh() {
   for (int node = 0; node < grid_.nodes(); ++node) {
     const int width = grid_.width(node);
     const auto columns = grid_.rows().columns(node);
-    RowMajor block(width, width);
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-      const int place = columns[k] - grid_.first_column(node);
-      if (place < 0 || place >= width) continue;
-      for (int row = 0; row < width; ++row) {
-        block(row, place) = grid_.rows().values(node)[index(row) * columns.size() + k];
+    const auto invert = [&](auto block) {
+      for (std::size_t k = 0; k < columns.size(); ++k) {
+        const int place = columns[k] - grid_.first_column(node);
+        if (place < 0 || place >= width) continue;
+        for (int row = 0; row < width; ++row) {
+          block(row, place) = grid_.rows().values(node)[index(row) * columns.size() + k];
+        }
       }
-    }
-    Eigen::Map<Eigen::MatrixXf> inverse(inverse_.data() + first_[index(node)], width, width);
-    const Eigen::FullPivLU<RowMajor> lu(block);
-    leaves_[index(node)] = !lu.isInvertible() || !block.allFinite();
-    if (leaves_[index(node)]) {
-      inverse.setZero();
+      Eigen::Map<Eigen::MatrixXf> inverse(inverse_.data() + first_[index(node)], width, width);
+      const Eigen::FullPivLU<decltype(block)> lu(block);
+      leaves_[index(node)] = !lu.isInvertible() || !block.allFinite();
+      if (leaves_[index(node)]) {
+        inverse.setZero();
+      } else {
+        inverse = lu.inverse().eval().template cast<float>();
+      }
+    };
+    if (width == 6) {
+      invert(Mat6());
     } else {
-      inverse = lu.inverse().cast<float>();
+      invert(Eigen::MatrixXd(width, width));
     }
   }
 }

@@ -38,8 +38,11 @@ using assembly::Vector;
 NewtonGroup::NewtonGroup(std::shared_ptr<NewtonProblem> problem)
     : problem_(std::move(problem)),
       x_(problem_->system.layout().rows()),
-      f_(problem_->system.layout().rows()),
-      newton_(problem_->system.layout().rows()) {}
+      f_(problem_->settings.backtrack
+             ? Vector(problem_->system.layout().rows())
+             : assembly::view_of(assembly::tpetra(problem_->system.residual()))),
+      newton_(problem_->system.layout().rows()),
+      shares_residual_(!problem_->settings.backtrack) {}
 
 NewtonGroup::NewtonGroup(const NewtonGroup& other, NOX::CopyType type)
     : problem_(other.problem_),
@@ -61,7 +64,7 @@ void NewtonGroup::start() {
 }
 
 void NewtonGroup::finish() {
-  problem_->state->next = next_;
+  problem_->state->next.swap(next_);  // the next start takes it anew
   problem_->state->multipliers = multipliers_;
   problem_->state->own = own_;
   problem_->state->time = level_;
@@ -88,7 +91,6 @@ NOX::Abstract::Group& NewtonGroup::operator=(const NewtonGroup& other) {
   level_ = other.level_;
   level_increment_ = other.level_increment_;
   evaluation_ = other.evaluation_;
-  x_ = other.x_;
   has_residual_ = other.has_residual_;
   has_newton_ = other.has_newton_;
   if (has_residual_) f_ = other.f_;
@@ -100,7 +102,7 @@ NOX::Abstract::Group& NewtonGroup::operator=(const NOX::Abstract::Group& other) 
   return *this = dynamic_cast<const NewtonGroup&>(other);
 }
 
-void NewtonGroup::setX(const NOX::Abstract::Vector& x) { x_ = NewtonVector::cast(x); }
+void NewtonGroup::setX(const NOX::Abstract::Vector&) {}
 
 void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract::Vector& direction,
                            double step) {
@@ -115,7 +117,6 @@ void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract
   multipliers_ = origin.multipliers_;
   own_ = origin.own_;
   level_ = origin.level_ + step * origin.level_increment_;
-  x_.update(1.0, origin.x_, step, increment, 0.0);
   swap_with_state();
   NewtonProblem& p = *problem_;
   if (p.settings.extrapolate_stress) {
@@ -125,10 +126,10 @@ void NewtonGroup::computeX(const NOX::Abstract::Group& from, const NOX::Abstract
       p.system.extrapolate(*p.state, p.stencil, increment.get(), step);
     } else if (p.waiting) {
       p.waiting->from = p.state->next;
-      p.waiting->increment = increment.get();
+      p.waiting->increment = &increment.get();
       p.waiting->step = step;
     } else {
-      p.waiting.emplace(p.state->next, increment.get(), step);
+      p.waiting.emplace(p.state->next, &increment.get(), step);
     }
   }
   p.system.move(*p.state, increment.get(), step);
@@ -168,7 +169,7 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeF() {
         std::max(evaluation_.constraint_violation, p.condition->violation(*p.state));
   }
   swap_with_state();
-  f_.get() = p.system.residual();
+  if (!shares_residual_) f_.get() = p.system.residual();
   has_residual_ = evaluation_.verdict == Verdict::ok;
   has_tangent_ = has_residual_ && !without_tangent;
   return has_residual_ ? Ok : Failed;
@@ -179,7 +180,7 @@ void NewtonGroup::extrapolate_late() {
   NewtonProblem& p = *problem_;
   if (!p.stress_waits) return;
   p.state->next.swap(p.waiting->from);
-  p.system.extrapolate(*p.state, p.stencil, p.waiting->increment, p.waiting->step);
+  p.system.extrapolate(*p.state, p.stencil, *p.waiting->increment, p.waiting->step);
   p.state->next.swap(p.waiting->from);
   p.stress_waits = false;
 }

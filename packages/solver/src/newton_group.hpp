@@ -17,7 +17,7 @@ namespace culm::solver {
 /// An extrapolation of the stress that no tangent has asked for yet.
 struct WaitingStress {
   model::Coordinates from;
-  assembly::Vector increment;
+  const assembly::Vector* increment;  ///< of NOX, which has no other before it asks for a tangent
   double step;
 };
 
@@ -52,8 +52,8 @@ struct NewtonProblem {
   std::optional<WaitingStress> waiting = {};  ///< made when it is first wanted
 };
 
-/// A trial point. Rotations are updated multiplicatively in computeX, so X only counts increments
-/// since the start of the step; NOX needs no more, and setX does not move the point.
+/// A trial point. Rotations are updated multiplicatively in computeX, and X stays zero: NOX only
+/// asks of which shape it is. So setX does not move the point.
 class NewtonGroup final : public NOX::Abstract::Group {
  public:
   explicit NewtonGroup(std::shared_ptr<NewtonProblem> problem);
@@ -117,8 +117,9 @@ class NewtonGroup final : public NOX::Abstract::Group {
   const NewtonGroup* start_of_ = nullptr;
   long moves_ = 0;
   NewtonVector x_;
-  NewtonVector f_;
+  NewtonVector f_;  ///< with full steps the residual of the system, else a copy
   NewtonVector newton_;
+  bool shares_residual_ = false;
   bool has_residual_ = false;
   bool has_tangent_ = false;
   bool tangent_wanted_ = false;

@@ -156,7 +156,6 @@ struct NewtonSolver::Nox {
   Teuchos::RCP<NewtonGroup> group;
   Teuchos::RCP<BalanceTest> balance;
   Teuchos::RCP<NOX::StatusTest::Combo> tests;
-  Teuchos::RCP<NewtonVector> origin;
   Teuchos::RCP<NOX::Solver::Generic> solver;
 
   StepEnd find_end(NOX::StatusTest::StatusType status, const NewtonGroup& last) const {
@@ -210,7 +209,6 @@ NewtonSolver::NewtonSolver(assembly::System& system, LinearSolver& linear,
   nox_->problem->tangent_is_whole = has_whole_tangent(system.model());
   nox_->group = Teuchos::rcp(new NewtonGroup(nox_->problem));
   nox_->balance = Teuchos::rcp(new BalanceTest(*nox_->problem));
-  nox_->origin = Teuchos::rcp(new NewtonVector(system.layout().rows()));
   nox_->tests = Teuchos::rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
   nox_->tests->addStatusTest(nox_->balance);
   nox_->tests->addStatusTest(Teuchos::rcp(new NOX::StatusTest::MaxIters(settings.max_iterations)));
@@ -225,7 +223,7 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   nox.problem->state = &state;
   nox.problem->stencil = stencil;
   nox.problem->condition = condition;
-  const assembly::Rows& system_rows = nox.origin->get().rows();
+  const assembly::Rows& system_rows = nox.problem->system.layout().rows();
   if (condition != nullptr && !nox.problem->level_gradient) {
     nox.problem->level_gradient.emplace(system_rows);
     nox.problem->level_flexibility.emplace(system_rows);
@@ -236,13 +234,11 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   nox.problem->iterations = 0;
   nox.balance->reset();
   nox.group->start();
-  nox.origin->init(0.0);
 
   NOX::StatusTest::StatusType status = NOX::StatusTest::Failed;
-  nox.group->setX(*nox.origin);
   // NOX throws when the residual fails at the start of a step; that is an outcome, not an error
   if (nox.group->computeF() == NOX::Abstract::Group::Ok) {
-    nox.solver->reset(*nox.origin);
+    nox.solver->reset(nox.group->getX());
     try {
       status = nox.solver->solve();
     } catch (const char*) {

@@ -5,12 +5,15 @@
 
 #include <NOX_Abstract_Vector.H>
 
+#include <utility>
+
 namespace culm::solver {
 
 /// Norms are over all ranks.
 class NewtonVector final : public NOX::Abstract::Vector {
  public:
   explicit NewtonVector(const assembly::Rows& rows) : vector_(rows) {}
+  explicit NewtonVector(assembly::Vector vector) : vector_(std::move(vector)) {}
   NewtonVector(const NewtonVector& other, NOX::CopyType type) : vector_(other.vector_.rows()) {
     if (type == NOX::DeepCopy) vector_ = other.vector_;
   }
