@@ -410,7 +410,7 @@ DirectorPack<Order>::DirectorPack(
         point.reference.of(l, i) = element.reference_strain(g)[i];
         for (int j = i; j < 6; ++j) {
           sections->stiffness[static_cast<std::size_t>(g)].of(l, entry(6, i, j)) =
-              0.5 * (C(i, j) + C(j, i));
+              0.5 * C(i, j) + 0.5 * C(j, i);
         }
       }
     }

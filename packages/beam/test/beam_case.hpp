@@ -45,11 +45,13 @@ struct DirectorBeamCase {
   using Type = DirectorBeam<Order>;
   static Slots<Type::num_slots> reference() { return curved_reference<Type::num_nodes>(); }
   static Slots<Type::num_slots> state(int seed) { return random_state<Type::num_nodes>(seed); }
-  static Type make() {
+  static Type make(int section = 0) {
     std::array<Mat6, Order> stiffness;
-    for (int g = 0; g < Order; ++g) stiffness[static_cast<std::size_t>(g)] = coupled_stiffness(g);
+    for (int g = 0; g < Order; ++g) {
+      stiffness[static_cast<std::size_t>(g)] = coupled_stiffness(g + section);
+    }
     std::array<Mat3, Order + 1> mass;
-    mass.fill(coupled_mass(9));
+    mass.fill(coupled_mass(9 + section));
     return {reference(), stiffness, mass};
   }
   // mass per length times length of the interpolated axis, as the element integrates both

@@ -157,6 +157,9 @@ TEST(Interpolate, IsLinearAndMeetsItsEnds) {
   const Section b = centred_rectangle(2.0, 1.0);
   EXPECT_EQ(interpolate(a, b, 0.0).stiffness, a.stiffness);
   EXPECT_EQ(interpolate(a, b, 1.0).mass, b.mass);
+  // what is the same is so to the last digit
+  EXPECT_EQ(interpolate(a, a, 0.3).stiffness, a.stiffness);
+  EXPECT_EQ(interpolate(a, a, 0.3).mass, a.mass);
   const Section middle = interpolate(a, b, 0.25);
   EXPECT_LT(relative_difference(middle.stiffness, Mat6(0.75 * a.stiffness + 0.25 * b.stiffness)),
             1e-15);

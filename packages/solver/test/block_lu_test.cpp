@@ -17,6 +17,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 
 namespace culm::solver {
 namespace {
@@ -239,6 +240,19 @@ TEST(BlockLu, ABenchChangesNothing) {
       }
     }
   }
+}
+
+// Factors that were not kept are made again, of what was factored and of nothing else.
+TEST(BlockLu, RefusesToReduceWithAnotherMatrix) {
+  const Skeleton s = chain(9, [](int) { return 6; });
+  BlockMatrix A(s);
+  BlockLu by_bench(*A.matrix, 0, 0);
+  Eigen::VectorXd x = Eigen::VectorXd::Ones(s.rows());
+  const std::span<double> of_x(x.data(), static_cast<std::size_t>(x.size()));
+  ASSERT_TRUE(by_bench.factor_and_reduce(of_x));
+  A.values *= 0.0;
+  A.refresh();
+  EXPECT_THROW(by_bench.reduce(of_x), std::logic_error);
 }
 
 // Of a chain two panels are made at a time, of a tree those that wait for their second branch, too.
