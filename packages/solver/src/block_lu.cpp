@@ -1,5 +1,6 @@
 #include "block_lu.hpp"
 
+#include <culm/base/error.hpp>
 #include <culm/math/fetch.hpp>
 #include <culm/math/types.hpp>
 #include <culm/math/vector_units.hpp>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <type_traits>
 #include <utility>
 
@@ -401,9 +401,8 @@ std::span<const double> BlockLu::remainder() const {
 void BlockLu::reduce(std::span<double> x) {
   if (has_bench() && !keeps_lower_) {
     keep_lower(true);
-    if (!factor_as_planned(rest_of_rounding, {})) {
-      throw std::logic_error("BlockLu: the matrix has changed since it was factored");
-    }
+    internal_check(factor_as_planned(rest_of_rounding, {}),
+                   "a matrix has changed since it was factored");
   }
   reduces_again_ = true;
   take(x);

@@ -206,7 +206,8 @@ bool NewtonGroup::solve_linear() {
   if (has_tangent_) {
     const Ledger::Scope scope(p.ledger, p.factor_effect);
     if (p.holds_free && p.iterations == 0) p.system.stiffen(held_share);
-    p.singular = !p.linear.factor_for(f_.get());
+    const bool serves_once = p.settings.refresh == Refresh::every_iteration;
+    p.singular = !(serves_once ? p.linear.factor_for(f_.get()) : p.linear.factor());
     ++p.factorisations;
     p.has_factors = !p.singular;
     p.factored_inertia = p.stencil.inertia;

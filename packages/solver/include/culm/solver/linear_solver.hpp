@@ -41,8 +41,9 @@ class LinearSolver {
   virtual std::string name() const = 0;
   /// Factors the present values. @return false if the matrix is singular to working precision
   virtual bool factor() = 0;
-  /// The same where a solution for b is the next to follow, with b as it is now: a part of it may
-  /// be done on the way.
+  /// The same where a solution for b is the next to follow, with b as it is now, and hardly
+  /// another: a part of it may be done on the way, and what further ones need may be left out. They
+  /// make it anew, of the values that were factored, which the matrix must still have.
   virtual bool factor_for(const Vector& b) {
     static_cast<void>(b);
     return factor();
