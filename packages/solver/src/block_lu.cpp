@@ -19,7 +19,7 @@
 namespace culm::solver {
 namespace {
 
-constexpr auto no_place = std::numeric_limits<std::size_t>::max();
+constexpr auto no_place = std::numeric_limits<BlockPlan::Place>::max();
 
 // Eliminating others may leave on the diagonal so many times the largest entry of the row, as with
 // kept pivots of KLU2. The error of a solution grows by as much.
@@ -131,6 +131,7 @@ void BlockLu::keep_lower(bool wanted) {
   keeps_lower_ = wanted;
   if (!wanted) lower_ = std::vector<Packs<1>>();  // {} would keep the memory
   if (wanted && has_bench() && lower_.empty()) resize(lower_, plan_.num_lower);
+  exchanged_.resize(is_whole() ? plan_.unknown.size() : row_weight_.size());
 }
 
 // Pivots have to exceed so much of what has been on the diagonal.
@@ -138,11 +139,10 @@ bool BlockLu::factor_as_planned(double least, const ToReduce& x) {
   if (x) take(*x);
   failed_ = nullptr;
   noted_ = 0;
+  exchanges_ = 0;
   for (const BlockPlan::Panel& panel : eliminated()) {
     if (!eliminate(panel, least)) return false;
-    if (x) {
-      reduce_by(panel, bench() + panel.pivot, panel.stride(), bench() + panel.below);
-    }
+    if (x) reduce_by(panel, made_lower(panel));
   }
   if (kept_ > 0) fill_before(plan_.panels.back());
   return true;
@@ -187,11 +187,8 @@ void BlockLu::plan() {
   const std::size_t rows = plan_.unknown.size();
   resize(bench_, has_bench() ? plan_.bench_size : 0);
   resize(factors_, plan_.num_values);
-  lower_.clear();
-  keep_lower(keeps_lower_);
   reciprocals_.assign(rows, 0.0);
   before_.assign(rows, 0.0);
-  exchanged_.assign(rows, 0);
   x_.assign(rows, 0.0);
   diagonal_.assign(rows, no_place);
   place_.assign(rows, 0);
@@ -199,7 +196,7 @@ void BlockLu::plan() {
     const std::size_t row = index(plan_.unknown[place]);
     place_[row] = static_cast<int>(place);
     rows_.for_entries(plan_.unknown[place], [&](int column, std::size_t source) {
-      if (index(column) == row) diagonal_[place] = source;
+      if (index(column) == row) diagonal_[place] = static_cast<BlockPlan::Place>(source);
     });
   }
   int widest = 0;
@@ -213,6 +210,23 @@ void BlockLu::plan() {
   beside_.assign(index(widest), 0.0);
   row_weight_.assign(index(tallest), 0.0);
   room_.resize(index(room));
+  lower_.clear();
+  keep_lower(keeps_lower_);
+}
+
+BlockLu::Kept BlockLu::kept_V(const BlockPlan::Panel& p) const {
+  if (has_bench()) return {factors() + numbers_of_line * p.line_of_V, p.width};
+  return {factors() + p.pivot + p.size, p.stride()};
+}
+
+BlockLu::Lower BlockLu::kept_lower(const BlockPlan::Panel& p) {
+  if (!has_bench()) return made_lower(p);
+  const double* D = numbers_of(lower_) + numbers_of_line * p.line_of_D;
+  return {D, p.size, D + p.size * p.size, {exchanged_rows(p), index(p.size)}};
+}
+
+BlockLu::Lower BlockLu::made_lower(const BlockPlan::Panel& p) {
+  return {bench() + p.pivot, p.stride(), bench() + p.below(), {exchanged_rows(p), index(p.size)}};
 }
 
 BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
@@ -226,7 +240,7 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
   const BlockPlan::Panel* last = plan_.panels.data() + plan_.panels.size() - 1;
   if (last - &panel < ahead) return;
   const BlockPlan::Panel* then = &panel + ahead;
-  for (std::size_t k = (then - 1)->copies; k < then->copies; ++k) {
+  for (BlockPlan::Place k = (then - 1)->copies; k < then->copies; ++k) {
     const BlockPlan::Copy& c = plan_.copies[k];
     const double* source = rows_.values(c.source);
     for (int i = 0; i < c.rows; ++i, source += c.source_stride) {
@@ -246,10 +260,10 @@ BlockPlan::Panel BlockLu::before(const BlockPlan::Panel& panel) const {
     }
   };
   const BlockPlan::Panel done = before(panel);
-  for (std::size_t k = done.gaps; k < panel.gaps; ++k) {
+  for (BlockPlan::Place k = done.gaps; k < panel.gaps; ++k) {
     std::fill_n(bench() + plan_.gaps[k].target, plan_.gaps[k].size, 0.0);
   }
-  for (std::size_t k = done.copies; k < panel.copies; ++k) {
+  for (BlockPlan::Place k = done.copies; k < panel.copies; ++k) {
     const BlockPlan::Copy& c = plan_.copies[k];
     with_few(
         c.columns, [&](auto columns) __attribute__((always_inline)) { copy_rows(c, columns); });
@@ -300,7 +314,7 @@ double BlockLu::largest_behind_joints(int row) const {
   };
   double largest = 0.0;
   for_entries(row, [&](int joint, double here) {
-    const std::size_t diagonal = diagonal_[index(place_[index(joint)])];
+    const BlockPlan::Place diagonal = diagonal_[index(place_[index(joint)])];
     if (diagonal != no_place && rows_.value(diagonal) != 0.0) return;
     const double least = smallest_share * largest_in_row(joint);
     for_entries(joint, [&](int other, double there) {
@@ -341,14 +355,16 @@ CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] bool BlockLu::eliminate(const BlockPl
   if (has_grown(panel)) return false;
   const bool is_sound = with_sizes(panel, [&](auto size, auto width) {
     return factor_panel(bench() + panel.pivot, size, width, before_.data() + panel.first, least,
-                        exchanged_.data() + panel.first, row_weight_.data(), room_.data()->numbers);
+                        exchanged_rows(panel), row_weight_.data(), room_.data()->numbers);
   });
   if (!is_sound) {
     failed_ = &panel;
     return false;
   }
+  const int* exchanged = exchanged_rows(panel);
   for (int i = 0; i < panel.size; ++i) {
     reciprocals_[index(panel.first + i)] = bench()[panel.pivot + index(i * (panel.stride() + 1))];
+    if (exchanged[i] != i) ++exchanges_;
   }
   update(panel, before(panel).updates);
   if (has_bench()) {
@@ -362,14 +378,14 @@ template <class Size, class Width>
 [[gnu::always_inline]] inline void BlockLu::put_away(const BlockPlan::Panel& panel, Size size,
                                                      Width width) {
   const double* rows = bench() + panel.pivot;
-  double* V = factors() + panel.V;
-  double* D = keeps_lower_ ? numbers_of(lower_) + panel.D : nullptr;
+  double* V = factors() + numbers_of_line * panel.line_of_V;
+  double* D = keeps_lower_ ? numbers_of(lower_) + numbers_of_line * panel.line_of_D : nullptr;
   const auto put = [&](const auto& copy) __attribute__((always_inline)) {
     for (int r = 0; r < size; ++r) copy(rows + r * (size + width) + size, width, V + r * width);
     if (!keeps_lower_) return;
     for (int r = 0; r < size; ++r) copy(rows + r * (size + width), size, D + r * size);
     for (int r = 0; r < width; ++r) {
-      copy(bench() + panel.below + r * size, size, D + (size + r) * size);
+      copy(bench() + panel.below() + index(r * size), size, D + (size + r) * size);
     }
   };
   if (size % 2 != 0 || width % 2 != 0) {
@@ -406,26 +422,21 @@ void BlockLu::reduce(std::span<double> x) {
   }
   reduces_again_ = true;
   take(x);
-  for (const BlockPlan::Panel& panel : eliminated()) reduce_by(panel);
+  for (const BlockPlan::Panel& panel : eliminated()) reduce_by(panel, kept_lower(panel));
   put_kept(x);
 }
 
 void BlockLu::take(std::span<const double> x) {
-  for (std::size_t place = 0; place < x_.size(); ++place) {
-    x_[place] = x[index(plan_.unknown[place])];
+  double* to = x_.data();
+  for (const BlockPlan::Run& run : plan_.runs) {
+    to = std::copy_n(x.data() + run.row, run.count, to);
   }
-}
-
-void BlockLu::reduce_by(const BlockPlan::Panel& panel) {
-  reduce_by(panel, lower() + panel.D, stride_of_D(panel), lower() + panel.L);
 }
 
 // The same code whenever it is called, so that a solution does not depend on it.
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::reduce_by(const BlockPlan::Panel& panel,
-                                                                   const double* D, int stride,
-                                                                   const double* L) {
-  with_sizes(panel,
-             [&](auto size, auto width) { substitute_forward(panel, size, width, D, stride, L); });
+                                                                   const Lower& lower) {
+  with_sizes(panel, [&](auto size, auto width) { substitute_forward(panel, size, width, lower); });
 }
 
 void BlockLu::put_kept(std::span<double> x) const {
@@ -435,26 +446,33 @@ void BlockLu::put_kept(std::span<double> x) const {
 }
 
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::extend(std::span<double> x) {
-  const std::size_t first = x_.size() - index(kept_);
-  for (std::size_t place = first; place < x_.size(); ++place) {
+  for (std::size_t place = x_.size() - index(kept_); place < x_.size(); ++place) {
     x_[place] = x[index(plan_.unknown[place])];
   }
   const auto panels = eliminated();
   for (auto panel = panels.rbegin(); panel != panels.rend(); ++panel) {
-    with_sizes(*panel, [&](auto size, auto width) { substitute_back(*panel, size, width); });
+    with_sizes(*panel, [&](auto size, auto width) {
+      substitute_back(*panel, size, width);
+      put_solved(*panel, size, x);
+    });
   }
-  for (std::size_t place = 0; place < first; ++place) {
-    x[index(plan_.unknown[place])] = x_[place];
-  }
+}
+
+template <class Size>
+void BlockLu::put_solved(const BlockPlan::Panel& panel, Size size, std::span<double> x) const {
+  const double* solved = x_.data() + panel.first;
+  if (panel.row >= 0) return copy_numbers(solved, size, x.data() + panel.row);
+  for (int i = 0; i < size; ++i) x[index(plan_.unknown[index(panel.first + i)])] = solved[i];
 }
 
 // With known sizes the block is solved in registers.
 template <class Size, class Width>
 void BlockLu::substitute_forward(const BlockPlan::Panel& panel, Size size, Width width,
-                                 const double* D, int stride, const double* L) {
+                                 const Lower& lower) {
+  const auto& [D, stride, L, exchanged] = lower;
   double* x = x_.data() + panel.first;
   const int* beside = plan_.beside.data() + panel.beside;
-  exchange_rows({exchanged_.data() + panel.first, index(panel.size)}, x);
+  exchange_rows(exchanged, x);
   const auto subtract_from_beside = [&](const double* solved) __attribute__((always_inline)) {
     for (int i = 0; i < width; ++i) {
       double sum = 0.0;
@@ -478,8 +496,8 @@ template <class Size, class Width>
 void BlockLu::substitute_back(const BlockPlan::Panel& panel, Size size, Width width) {
   const int* beside = plan_.beside.data() + panel.beside;
   for (int k = 0; k < width; ++k) beside_[index(k)] = x_[index(beside[k])];
-  subtract_product(factors() + panel.V, stride_of_V(panel), beside_.data(), x_.data() + panel.first,
-                   size, width);
+  const Kept V = kept_V(panel);
+  subtract_product(V.numbers, V.stride, beside_.data(), x_.data() + panel.first, size, width);
 }
 
 // Rows and columns are in the same order, so that only exchanges inside blocks change the sign.
@@ -487,17 +505,16 @@ void BlockLu::substitute_back(const BlockPlan::Panel& panel, Size size, Width wi
 // eigenvalues.
 Determinant BlockLu::determinant() const {
   Determinant d{1, 0.0};
-  int negative = 0, exchanges = 0;
+  int negative = 0;
   for (const BlockPlan::Panel& panel : eliminated()) {
     for (int i = 0; i < panel.size; ++i) {
       const double reciprocal = reciprocals_[index(panel.first + i)];
       if (reciprocal < 0.0) ++negative;
-      if (exchanged_[index(panel.first + i)] != i) ++exchanges;
       d.log_size -= std::log(std::abs(reciprocal));
     }
   }
-  if ((negative + exchanges) % 2 != 0) d.sign = -1;
-  if (exchanges == 0) d.negative = negative;
+  if ((negative + exchanges_) % 2 != 0) d.sign = -1;
+  if (exchanges_ == 0) d.negative = negative;
   return d;
 }
 

@@ -70,9 +70,25 @@ class BlockLu {
   const double* bench() const { return numbers_of(has_bench() ? bench_ : factors_); }
   double* factors() { return numbers_of(factors_); }
   const double* factors() const { return numbers_of(factors_); }
-  const double* lower() const { return numbers_of(has_bench() ? lower_ : factors_); }
-  int stride_of_D(const BlockPlan::Panel& p) const { return has_bench() ? p.size : p.stride(); }
-  int stride_of_V(const BlockPlan::Panel& p) const { return has_bench() ? p.width : p.stride(); }
+  // of those of a panel V, with its stride, and D and L where they stay
+  struct Kept {
+    const double* numbers;
+    int stride;
+  };
+  Kept kept_V(const BlockPlan::Panel& p) const;
+  struct Lower {
+    const double* D;
+    int stride;  // of D
+    const double* L;
+    std::span<const int> exchanged;  // of each row of D, the one it was exchanged with
+  };
+  Lower kept_lower(const BlockPlan::Panel& p);
+  Lower made_lower(const BlockPlan::Panel& p);
+  // D, L and exchanges are there for all panels
+  bool is_whole() const { return keeps_lower_ || !has_bench(); }
+  int* exchanged_rows(const BlockPlan::Panel& p) {
+    return exchanged_.data() + (is_whole() ? p.first : 0);
+  }
   using ToReduce = std::optional<std::span<const double>>;
   bool factor_numbers(const ToReduce& x);
   bool factor_with_chosen_hosts(const ToReduce& x);
@@ -90,15 +106,16 @@ class BlockLu {
   void take(std::span<const double> x);
   template <class Size, class Width>
   void put_away(const BlockPlan::Panel& panel, Size size, Width width);
-  void reduce_by(const BlockPlan::Panel& panel);
-  void reduce_by(const BlockPlan::Panel& panel, const double* D, int stride, const double* L);
+  void reduce_by(const BlockPlan::Panel& panel, const Lower& lower);
   bool has_grown(const BlockPlan::Panel& panel);
   double largest_in_row(int row) const;
   double largest_behind_joints(int row) const;
   void update(const BlockPlan::Panel& panel, std::size_t from);
   template <class Size, class Width>
-  void substitute_forward(const BlockPlan::Panel& panel, Size size, Width width, const double* D,
-                          int stride, const double* L);
+  void substitute_forward(const BlockPlan::Panel& panel, Size size, Width width,
+                          const Lower& lower);
+  template <class Size>
+  void put_solved(const BlockPlan::Panel& panel, Size size, std::span<double> x) const;
   template <class Size, class Width>
   void substitute_back(const BlockPlan::Panel& panel, Size size, Width width);
 
@@ -111,7 +128,7 @@ class BlockLu {
   std::vector<int> host_;
   BlockPlan plan_;
   const BlockPlan::Panel* failed_ = nullptr;  ///< whose pivots are nothing but rounding
-  std::vector<std::size_t> diagonal_;         ///< by place: source of its entry; `none`
+  std::vector<BlockPlan::Place> diagonal_;    ///< by place: source of its entry; `no_place`
   std::vector<int> place_;                    ///< of each row
   std::vector<Packs<1>> bench_;               ///< where panels are made, see BlockPlan
   std::vector<Packs<1>> factors_;
@@ -121,11 +138,13 @@ class BlockLu {
   std::vector<double> reciprocals_;  ///< by place: of pivots
   std::vector<double> before_;       ///< by place: largest size of the diagonal so far
   std::size_t noted_ = 0;            ///< places that `before_` knows
-  std::vector<int> exchanged_;       ///< by place: the row of the block it was exchanged with
-  std::vector<double> x_;            ///< by place
-  std::vector<double> beside_;       ///< of one panel
-  std::vector<double> row_weight_;   ///< of one panel
-  std::vector<Packs<1>> room_;       ///< of one panel
+  /// By place: the row of the block it was exchanged with. Of one panel, where D is not kept.
+  std::vector<int> exchanged_;
+  int exchanges_ = 0;               ///< of all rows
+  std::vector<double> x_;           ///< by place
+  std::vector<double> beside_;      ///< of one panel
+  std::vector<double> row_weight_;  ///< of one panel
+  std::vector<Packs<1>> room_;      ///< of one panel
 };
 
 }  // namespace culm::solver

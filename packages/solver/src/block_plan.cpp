@@ -1,11 +1,13 @@
 #include "block_plan.hpp"
 
+#include <culm/base/error.hpp>
 #include <culm/math/types.hpp>
 
 #include "blocks.hpp"
 #include "elimination_groups.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -32,7 +34,7 @@ class Planner {
     find_need();
     fill_when_needed();
     if (end_ <= cached) {
-      stay();
+      plan_.num_values = end_;
       return;
     }
     const bool keeps = first_kept < static_cast<int>(blocks_.sizes.size());
@@ -47,6 +49,15 @@ class Planner {
     int stride = 0;
   };
 
+  static BlockPlan::Place short_of(std::size_t place) {
+    if (place > std::numeric_limits<BlockPlan::Place>::max()) {
+      throw NumericalError(
+          "Block LU cannot number the factors of a matrix so large on one process: take more "
+          "processes, or 'Linear Solver' = Iterative");
+    }
+    return static_cast<BlockPlan::Place>(place);
+  }
+
   void place_blocks() {
     group_of_.resize(blocks_.sizes.size());
     place_.resize(blocks_.sizes.size());
@@ -59,7 +70,17 @@ class Planner {
         for (int i = 0; i < blocks_.sizes[index(block)]; ++i) {
           plan_.unknown.push_back(first_row_[index(block)] + i);
         }
+        add_run(first_row_[index(block)], blocks_.sizes[index(block)]);
       }
+    }
+  }
+
+  void add_run(int row, int count) {
+    BlockPlan::Run* const last = plan_.runs.empty() ? nullptr : &plan_.runs.back();
+    if (last != nullptr && last->row + last->count == row) {
+      last->count += count;
+    } else {
+      plan_.runs.push_back({row, count});
     }
   }
 
@@ -92,17 +113,20 @@ class Planner {
   void add_panel(int g) {
     BlockPlan::Panel panel;
     panel.first = place_[index(groups_[index(g)].front())];
-    for (int block : groups_[index(g)]) panel.size += blocks_.sizes[index(block)];
-    panel.beside = plan_.beside.size();
+    panel.row = plan_.unknown[index(panel.first)];
+    for (int block : groups_[index(g)]) {
+      if (first_row_[index(block)] != panel.row + panel.size) panel.row = -1;
+      panel.size += blocks_.sizes[index(block)];
+    }
+    panel.beside = short_of(plan_.beside.size());
     for (int block : beside_[index(g)]) {
       for (int i = 0; i < blocks_.sizes[index(block)]; ++i) {
         plan_.beside.push_back(place_[index(block)] + i);
       }
       panel.width += blocks_.sizes[index(block)];
     }
-    panel.pivot = end_;
-    panel.below = panel.pivot + index(panel.size) * index(panel.stride());
-    end_ = panel.below + index(panel.width) * index(panel.size);
+    panel.pivot = short_of(end_);
+    end_ = panel.below() + index(panel.width) * index(panel.size);
     plan_.panels.push_back(panel);
   }
 
@@ -121,7 +145,7 @@ class Planner {
     const BlockPlan::Panel& panel = plan_.panels[index(std::min(g, h))];
     if (h < g) {
       const std::size_t above = index(among_beside(panel, row)) * index(panel.size);
-      return {panel.below + above + index(column - panel.first), panel.size};
+      return {panel.below() + above + index(column - panel.first), panel.size};
     }
     const int across = g == h ? column - panel.first : panel.size + among_beside(panel, column);
     const std::size_t above = index(row - panel.first) * index(panel.stride());
@@ -147,15 +171,16 @@ class Planner {
           ++run;
         }
         const Place target = find(static_cast<int>(b), other);
-        const std::size_t at = target.at + index(column - first_row_[index(other)]);
+        const auto at = short_of(target.at + index(column - first_row_[index(other)]));
         BlockPlan::Copy* last_copy = plan_.copies.size() > first ? &plan_.copies.back() : nullptr;
-        if (last_copy != nullptr && last_copy->source + index(last_copy->columns) == source &&
-            last_copy->target + index(last_copy->columns) == at &&
+        if (last_copy != nullptr &&
+            last_copy->source + static_cast<unsigned>(last_copy->columns) == source &&
+            last_copy->target + static_cast<unsigned>(last_copy->columns) == at &&
             panel_of(last_copy->target) == panel_of(at)) {
           last_copy->columns += run;
         } else {
           plan_.copies.push_back(
-              {source, at, blocks_.widths[b], target.stride, blocks_.sizes[b], run});
+              {short_of(source), at, blocks_.widths[b], target.stride, blocks_.sizes[b], run});
         }
         k += index(run);
       }
@@ -165,26 +190,27 @@ class Planner {
   void list_updates() {
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       BlockPlan::Panel& panel = plan_.panels[g];
-      std::size_t below = panel.below;
+      std::size_t below = panel.below();
       for (int row_block : beside_[g]) {
         std::size_t beside = panel.pivot + index(panel.size);
         std::size_t first = plan_.updates.size();  // of this row
         for (int column_block : beside_[g]) {
-          const Place target = find(row_block, column_block);
+          const Place found = find(row_block, column_block);
+          const auto target = short_of(found.at);
           const int columns = blocks_.sizes[index(column_block)];
           BlockPlan::Update* last = plan_.updates.size() > first ? &plan_.updates.back() : nullptr;
-          if (last != nullptr && last->target + index(last->columns) == target.at &&
-              last->stride == target.stride && panel_of(last->target) == panel_of(target.at)) {
+          if (last != nullptr && last->target + static_cast<unsigned>(last->columns) == target &&
+              last->stride == found.stride && panel_of(last->target) == panel_of(target)) {
             last->columns += columns;
           } else {
-            plan_.updates.push_back({below, beside, target.at, target.stride,
+            plan_.updates.push_back({short_of(below), short_of(beside), target, found.stride,
                                      blocks_.sizes[index(row_block)], columns});
           }
           beside += index(columns);
         }
         below += index(blocks_.sizes[index(row_block)]) * index(panel.size);
       }
-      panel.updates = plan_.updates.size();
+      panel.updates = short_of(plan_.updates.size());
     }
   }
 
@@ -200,7 +226,7 @@ class Planner {
       bool goes_on = false;
       for (std::size_t k = plan_.panels[g].pivot; k < end_of(g); ++k) {
         if (!is_filled[k] && goes_on) ++plan_.gaps.back().size;
-        if (!is_filled[k] && !goes_on) plan_.gaps.push_back({k, 1});
+        if (!is_filled[k] && !goes_on) plan_.gaps.push_back({short_of(k), 1});
         goes_on = !is_filled[k];
       }
     }
@@ -237,43 +263,32 @@ class Planner {
   }
 
   template <class Item>
-  void sort_by_need(std::vector<Item>& items, std::size_t BlockPlan::Panel::*end) {
+  void sort_by_need(std::vector<Item>& items, BlockPlan::Place BlockPlan::Panel::*end) {
     std::vector<std::size_t> next(plan_.panels.size(), 0);  // place of the next item, by panel
     for (const Item& item : items) ++next[needed_by_[panel_of(item.target)]];
     std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
     std::vector<Item> sorted(items.size());
     for (const Item& item : items) sorted[next[needed_by_[panel_of(item.target)]]++] = item;
-    for (std::size_t g = 0; g < plan_.panels.size(); ++g) plan_.panels[g].*end = next[g];
+    for (std::size_t g = 0; g < plan_.panels.size(); ++g) plan_.panels[g].*end = short_of(next[g]);
     items = std::move(sorted);
-  }
-
-  void stay() {
-    plan_.num_values = end_;
-    for (BlockPlan::Panel& p : plan_.panels) {
-      p.D = p.pivot;
-      p.V = p.pivot + index(p.size);
-      p.L = p.below;
-    }
   }
 
   void place_factors(std::size_t num_eliminated) {
     const auto take = [](int numbers, std::size_t& end) {
-      return std::exchange(end, end + whole_lines(index(numbers)));
+      const std::size_t first = std::exchange(end, end + whole_lines(index(numbers)));
+      return short_of(first / numbers_of_line);
     };
     const std::span panels(plan_.panels.data(), num_eliminated);
     for (auto p = panels.rbegin(); p != panels.rend(); ++p)
-      p->V = take(p->size * p->width, plan_.num_values);
-    for (BlockPlan::Panel& p : panels) {
-      p.D = take(p.size * p.stride(), plan_.num_lower);
-      p.L = p.D + index(p.size) * index(p.size);
-    }
+      p->line_of_V = take(p->size * p->width, plan_.num_values);
+    for (BlockPlan::Panel& p : panels) p.line_of_D = take(p.size * p.stride(), plan_.num_lower);
   }
 
   void move_to_bench() {
     const std::vector<std::size_t> bench = find_places_on_bench();
-    const auto move = [&](std::size_t& value) {
+    const auto move = [&](BlockPlan::Place& value) {
       const std::size_t panel = panel_of(value);
-      value += bench[panel] - plan_.panels[panel].pivot;
+      value = short_of(value + bench[panel] - plan_.panels[panel].pivot);
     };
     for (BlockPlan::Copy& copy : plan_.copies) move(copy.target);
     for (BlockPlan::Gap& gap : plan_.gaps) move(gap.target);
@@ -282,11 +297,7 @@ class Planner {
       move(update.below);
       move(update.beside);
     }
-    for (std::size_t p = 0; p < bench.size(); ++p) {
-      BlockPlan::Panel& panel = plan_.panels[p];
-      panel.below += bench[p] - panel.pivot;
-      panel.pivot = bench[p];
-    }
+    for (std::size_t p = 0; p < bench.size(); ++p) plan_.panels[p].pivot = short_of(bench[p]);
   }
 
   // Of each panel, from when it is needed until it is eliminated.

@@ -4,14 +4,17 @@
 #include "block_rows.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace culm::solver {
 
-/// So many numbers, rounded up to whole lines of the cache, of which no two panels share one.
+/// Numbers of a line of the cache.
+constexpr std::size_t numbers_of_line = 8;
+
+/// So many numbers, rounded up to whole lines, of which no two panels share one.
 constexpr std::size_t whole_lines(std::size_t count) {
-  constexpr std::size_t line = 8;
-  return (count + line - 1) / line * line;
+  return (count + numbers_of_line - 1) / numbers_of_line * numbers_of_line;
 }
 
 /// Where the factors of a matrix stand and how they are computed, block by block.
@@ -26,54 +29,67 @@ constexpr std::size_t whole_lines(std::size_t count) {
 /// on it is free for the next. So a bench of few numbers stays in the cache, and what is finished
 /// is written once, past the cache, and not read before a solution wants it.
 struct BlockPlan {
+  /// Places, of numbers unless said otherwise. The plan is read with every factorisation, so that
+  /// it is kept short.
+  using Place = std::uint32_t;
+
   struct Panel {
-    int size = 0;            ///< unknowns of the group
-    int width = 0;           ///< columns of U, rows of L
-    int first = 0;           ///< place of its first unknown in the order of elimination
-    std::size_t beside = 0;  ///< its part of `beside`
-    std::size_t pivot = 0;   ///< [D U] where it is made
-    std::size_t below = 0;   ///< L where it is made
-    /// D, V and L where they stay; V and the others are counted each for themselves where they come
-    /// from a bench.
-    std::size_t D = 0;
-    std::size_t V = 0;
-    std::size_t L = 0;
+    int size = 0;      ///< unknowns of the group
+    int width = 0;     ///< columns of U, rows of L
+    int first = 0;     ///< place of its first unknown in the order of elimination
+    int row = 0;       ///< its first unknown, if the others follow it; else -1
+    Place beside = 0;  ///< its part of `beside`
+    Place pivot = 0;   ///< [D U] where it is made; L follows
+    /// V, and D with L behind it, where they stay when they come from a bench; in whole lines and
+    /// each counted for itself.
+    Place line_of_V = 0;
+    Place line_of_D = 0;
     /// Ends of its updates, and of the copies and gaps that are to be done before it is eliminated;
     /// they begin where those of the panel before end.
-    std::size_t updates = 0;
-    std::size_t copies = 0;
-    std::size_t gaps = 0;
+    Place updates = 0;
+    Place copies = 0;
+    Place gaps = 0;
     int stride() const { return size + width; }
+    /// L where it is made.
+    std::size_t below() const {
+      return pivot + static_cast<std::size_t>(size) * static_cast<std::size_t>(stride());
+    }
   };
   /// target -= L V, for some rows of L and some columns of V, where panels are made.
   struct Update {
-    std::size_t below = 0;   ///< first row of L
-    std::size_t beside = 0;  ///< first column of V
-    std::size_t target = 0;
+    Place below = 0;   ///< first row of L
+    Place beside = 0;  ///< first column of V
+    Place target = 0;
     int stride = 0;  ///< of the target
     int rows = 0;
     int columns = 0;
   };
   /// A rectangle of the matrix that goes to where a panel is made.
   struct Copy {
-    std::size_t source = 0;  ///< of the first entry, see BlockRows
-    std::size_t target = 0;
+    Place source = 0;  ///< of the first entry, see BlockRows
+    Place target = 0;
     int source_stride = 0;
     int target_stride = 0;
     int rows = 0;
     int columns = 0;
   };
+  /// What the matrix leaves empty in a panel and updates may fill.
+  struct Gap {
+    Place target = 0;
+    Place size = 0;
+  };
+  /// Rows of the matrix that follow each other in the order of elimination, too.
+  struct Run {
+    int row = 0;
+    int count = 0;
+  };
 
   std::vector<Panel> panels;
   std::vector<int> unknown;  ///< by place in the order of elimination
+  std::vector<Run> runs;     ///< the same
   std::vector<int> beside;   ///< places of the columns of each U
   std::vector<Update> updates;
   std::vector<Copy> copies;
-  /// What the matrix leaves empty in a panel and updates may fill.
-  struct Gap {
-    std::size_t target = 0;
-    std::size_t size = 0;
-  };
   std::vector<Gap> gaps;
   std::size_t bench_size = 0;  ///< 0 without a bench
   /// Of the factors; of those that come from a bench V alone, that of the panel eliminated last in
@@ -89,6 +105,7 @@ constexpr std::size_t cached_values = std::size_t{1} << 20;
 /// @param first_kept  the first of the blocks at the end that are not eliminated; if there are any,
 /// the D of the last panel is what remains for them and stays on the bench
 /// @param cached  factors with more numbers have a bench
+/// Throws NumericalError where there is more than a Place can tell.
 BlockPlan plan_blocks(const BlockRows& rows, const std::vector<int>& host, int first_kept,
                       std::size_t cached = cached_values);
 
