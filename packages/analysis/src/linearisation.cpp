@@ -31,7 +31,7 @@ std::vector<bool> kept_columns(const assembly::System& system, Keep keep) {
   const model::Model& model = system.model();
   std::vector<bool> kept;
   for (const assembly::Layout::LocalBlock& local : system.layout().local_blocks()) {
-    const model::Block& block = model.unknowns().block(local.block);
+    const model::Block block = model.unknowns().block(local.block);
     const auto end = static_cast<std::size_t>(local.first_column + block.shape.active);
     if (kept.size() < end) kept.resize(end, false);
     for (int i = 0; i < block.shape.width; ++i) {
@@ -190,11 +190,12 @@ Linearisation linearise(Context& context, const model::State& state, const Stenc
   if (found.force_scale > 0.0) linear.residual = found.force_residual / found.force_scale;
   const double balanced = 1e-6 * found.force_scale;
   // what rounding may leave, with a margin for states that other programs or analyses found
+  constexpr double margin = 1e3;
   linear.is_equilibrium =
       found.force_residual <= balanced ||
       assembly::check_rounding(system, {state.prev, state.next, state.multipliers, state.own},
-                               balanced, found.force_scale)
-              .share < 1e3;
+                               balanced, found.force_scale, margin)
+              .share < margin;
   linear.stiffness = std::make_shared<Matrix>(*system.matrix());
   linear.branches = find_branches(system, state);
   linear.damping = find_damping(system, state, linear.branches);
@@ -231,7 +232,7 @@ double typical_eigenvalue(const Linearisation& linear, const assembly::System& s
   const std::vector<double> m = linear.mass->diagonal();
   double sums[2] = {0.0, 0.0};  // of logarithms, and their number
   for (const assembly::Layout::LocalBlock& local : system.layout().local_blocks()) {
-    const model::Block& block = system.model().unknowns().block(local.block);
+    const model::Block block = system.model().unknowns().block(local.block);
     if (!local.owned || block.kind != model::BlockKind::node) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       if (block.shape.position[i] < 0) continue;

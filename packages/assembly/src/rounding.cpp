@@ -4,7 +4,9 @@
 #include "block_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace culm::assembly {
@@ -18,9 +20,6 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // That are judged before those that memory is asked for.
 constexpr int rows_ahead = 36;
-
-// A residual so far above its bound needs no exact number.
-constexpr double hopeless = 1e3;
 
 // Largest sizes of the translations of a node; where supports take some of them away, what is left
 // feels the rounding of all.
@@ -36,6 +35,7 @@ std::vector<double> levers_of(const model::NodeTable& nodes) {
   const auto place = [&](int node) {
     return model::NodeTable::slots(nodes.reference(), node).col(0);
   };
+  if (nodes.num_slaves() == 0) return levers;
   for (int node = 0; node < nodes.size(); ++node) {
     if (!nodes.is_slave(node)) continue;
     levers.resize(index(nodes.size()), 0.0);
@@ -45,44 +45,71 @@ std::vector<double> levers_of(const model::NodeTable& nodes) {
   return levers;
 }
 
-// Sizes of the unknowns of the local columns, in proportion to which they are rounded.
-std::vector<double> unknown_sizes(const System& system, const EvaluatedPoint& point) {
-  // directors are of unit length
-  std::vector<double> sizes(system.layout().columns().size(), 1.0);
-  const std::vector<double> levers = levers_of(system.model().nodes());
-  for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
-    const model::Block& block = system.model().unknowns().block(local.block);
+// Sizes of unknowns, in proportion to which they are rounded.
+class UnknownSizes {
+ public:
+  UnknownSizes(const System& system, const EvaluatedPoint& point)
+      : system_(system), point_(point), levers_(levers_of(system.model().nodes())) {}
+
+  // Of all local columns.
+  std::vector<double> all() const {
+    std::vector<double> sizes(system_.layout().columns().size());
+    for (const Layout::LocalBlock& local : system_.layout().local_blocks()) {
+      put(local, sizes.data() + local.first_column);
+    }
+    return sizes;
+  }
+
+  double of(int column) const {
+    const auto& blocks = system_.layout().local_blocks();
+    // blocks without unknowns share the first column of their successor
+    const auto after =
+        std::ranges::upper_bound(blocks, column, {}, &Layout::LocalBlock::first_column);
+    const Layout::LocalBlock& local = *std::prev(after);
+    std::array<double, 12> sizes{};
+    put(local, sizes.data());
+    return sizes[index(column - local.first_column)];
+  }
+
+ private:
+  void put(const Layout::LocalBlock& local, double* sizes) const {
+    const model::Block block = system_.model().unknowns().block(local.block);
+    std::fill_n(sizes, block.shape.active, 1.0);  // directors are of unit length
     const bool is_node = block.kind == model::BlockKind::node;
     Vec3 position = Vec3::Zero();
     if (is_node) {
-      position = position_size(block.shape, model::NodeTable::slots(point.prev, block.owner).col(0),
-                               model::NodeTable::slots(point.next, block.owner).col(0));
-      if (!levers.empty()) position.array() += levers[index(block.owner)];
+      position =
+          position_size(block.shape, model::NodeTable::slots(point_.prev, block.owner).col(0),
+                        model::NodeTable::slots(point_.next, block.owner).col(0));
+      if (!levers_.empty()) position.array() += levers_[index(block.owner)];
     }
     for (int i = 0; i < (is_node ? 3 : block.shape.width); ++i) {
       const int at = block.shape.position[index(i)];
       if (at < 0) continue;
-      double& size = sizes[index(local.first_column + at)];
+      double& size = sizes[at];
       const std::size_t value = index(block.first_value + i);
       if (is_node) {
         size = position[i];
       } else if (block.kind == model::BlockKind::multipliers) {
-        size = std::abs(point.multipliers[value]) / system.multiplier_scale();
+        size = std::abs(point_.multipliers[value]) / system_.multiplier_scale();
       } else {
-        const auto& unknowns = system.model().own_blocks()[index(block.owner)].unknowns;
+        const auto& unknowns = system_.model().own_blocks()[index(block.owner)].unknowns;
         size =
-            std::abs(point.own[value]) / own_scale(unknowns[index(i)], system.multiplier_scale());
+            std::abs(point_.own[value]) / own_scale(unknowns[index(i)], system_.multiplier_scale());
       }
     }
   }
-  return sizes;
-}
+
+  const System& system_;
+  const EvaluatedPoint& point_;
+  std::vector<double> levers_;
+};
 
 }  // namespace
 
 RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, double limit,
-                             double force_scale) {
-  const std::vector<double> sizes = unknown_sizes(system, point);
+                             double force_scale, double most) {
+  const UnknownSizes size_of(system, point);
   const auto residual = system.residual().values();
   const Matrix& matrix = *system.matrix();
   const auto values = matrix.values();
@@ -93,9 +120,10 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
   double share = 0.0;
   double largest = 0.0;
   int largest_row = 0;
-  const auto judge = [&](int row) {
+  // @param size_of_entry  of the unknown that an entry of the matrix belongs to
+  const auto judge = [&](int row, const auto& size_of_entry) {
     const double found = std::abs(residual[index(row)]);
-    if (found <= limit || share > hopeless) return;
+    if (found <= limit || share > most) return;
     const int later = std::min(row + rows_ahead, num_rows - 1);
     fetch(values.data() + row_begin[index(later)], sizeof(double));
     if (found > largest) {
@@ -109,18 +137,14 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
     // from here on the share cannot exceed the largest one so far
     const double enough = (found / (epsilon * share) - terms) / roundings;
     double sum = 0.0;
-    const auto reaches_enough = [&](const auto& size_of) {
-      for (auto k = first; k < last && sum < enough; ++k) sum += std::abs(values[k]) * size_of(k);
-      return sum >= enough;
-    };
-    const int column = first_column[index(row)];
-    const bool is_small =
-        column < 0 ? reaches_enough([&](auto k) { return sizes[index(column_of[k])]; })
-                   : reaches_enough([&](auto k) { return sizes[index(column) + (k - first)]; });
-    if (is_small) return;
+    for (auto k = first; k < last && sum < enough; ++k) {
+      sum += std::abs(values[k]) * size_of_entry(k);
+    }
+    if (sum >= enough) return;
     share = std::max(share, found / (epsilon * (roundings * sum + terms)));
   };
-  // where the largest one is hopeless, as before the last iterations, no other need be judged
+  // where the largest one is beyond what matters, as before the last iterations, no other need be
+  // judged
   int worst_row = -1;
   double worst_found = -1.0;
   for (int row = 0; row < num_rows; ++row) {
@@ -129,8 +153,19 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
     worst_found = found;
     worst_row = row;
   }
-  if (worst_row >= 0) judge(worst_row);
-  for (int row = 0; row < num_rows && share <= hopeless; ++row) judge(row);
+  if (worst_row >= 0) judge(worst_row, [&](auto k) { return size_of.of(column_of[k]); });
+  if (share <= most && worst_found > limit) {
+    const std::vector<double> sizes = size_of.all();
+    for (int row = 0; row < num_rows && share <= most; ++row) {
+      const int column = first_column[index(row)];
+      if (column < 0) {
+        judge(row, [&](auto k) { return sizes[index(column_of[k])]; });
+      } else {
+        const std::size_t first = row_begin[index(row)];
+        judge(row, [&](auto k) { return sizes[index(column) + (k - first)]; });
+      }
+    }
+  }
   const parallel::Comm& comm = system.comm();
   double worst[2] = {share, largest};
   comm.max(worst);
@@ -140,10 +175,10 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
 }
 
 double rounding_energy(const System& system, const EvaluatedPoint& point) {
-  std::vector<double> sizes = unknown_sizes(system, point);
+  std::vector<double> sizes = UnknownSizes(system, point).all();
   const auto each_block = [&](auto action) {
     for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
-      const model::Block& block = system.model().unknowns().block(local.block);
+      const model::Block block = system.model().unknowns().block(local.block);
       action(local, block, block.kind == model::BlockKind::node);
     }
   };

@@ -203,7 +203,7 @@ double rounding_share(System& system, const model::State& state) {
   system.prepare(state, Stencil::statics());
   const Evaluation found = system.evaluate(state, Stencil::statics(), Want::residual_and_tangent);
   return check_rounding(system, {state.prev, state.next, state.multipliers, state.own}, 0.0,
-                        found.force_scale)
+                        found.force_scale, 1e3)
       .share;
 }
 

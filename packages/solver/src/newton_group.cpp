@@ -194,10 +194,10 @@ NOX::Abstract::Group::ReturnType NewtonGroup::computeJacobian() {
   return result;
 }
 
-assembly::RoundingCheck NewtonGroup::check_rounding(double limit) const {
+assembly::RoundingCheck NewtonGroup::check_rounding(double limit, double most) const {
   const NewtonProblem& p = *problem_;
   return assembly::check_rounding(p.system, {p.state->prev, next_, multipliers_, own_}, limit,
-                                  evaluation_.force_scale);
+                                  evaluation_.force_scale, most);
 }
 
 bool NewtonGroup::solve_linear() {
@@ -225,7 +225,7 @@ double NewtonGroup::largest_turn() {
   const model::Coordinates& motion = p.system.linear_motion(*p.state, newton_.get(), 1.0);
   double largest = 0.0;
   for (const assembly::Layout::LocalBlock& local : p.system.layout().local_blocks()) {
-    const model::Block& block = p.system.model().unknowns().block(local.block);
+    const model::Block block = p.system.model().unknowns().block(local.block);
     if (block.kind != model::BlockKind::node) continue;
     const auto slots = model::NodeTable::slots(motion, block.owner);
     largest = std::max(largest, slots.rightCols<3>().colwise().norm().maxCoeff());

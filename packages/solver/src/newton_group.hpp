@@ -66,7 +66,7 @@ class NewtonGroup final : public NOX::Abstract::Group {
   void finish();
   const assembly::Evaluation& evaluation() const { return evaluation_; }
   /// Whether rounding can hold force rows above a limit at this point, which was evaluated last.
-  assembly::RoundingCheck check_rounding(double limit) const;
+  assembly::RoundingCheck check_rounding(double limit, double most) const;
 
   NOX::Abstract::Group& operator=(const NewtonGroup& other);
   NOX::Abstract::Group& operator=(const NOX::Abstract::Group& other) override;

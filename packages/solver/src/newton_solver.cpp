@@ -73,8 +73,9 @@ class BalanceTest final : public NOX::StatusTest::Generic {
   bool is_held_by_rounding(const NewtonGroup& group, double from, double limit) {
     if (history_.size() < 2) return false;
     const double residual = group.evaluation().force_residual;
-    const assembly::RoundingCheck check = group.check_rounding(from);
-    if (check.share > 1.0) return false;
+    constexpr double most = 1.0;  // that rounding explains
+    const assembly::RoundingCheck check = group.check_rounding(from, most);
+    if (check.share > most) return false;
     // inertia lets no direction be soft, so that what is as small as rounding moves nothing; what
     // old factors leave, or a tangent without some force, always points the same way
     const bool is_usual =

@@ -15,7 +15,7 @@ struct EvaluatedPoint {
 
 /// Force rows out of balance by more than a limit, held against what rounding can leave in each.
 struct RoundingCheck {
-  /// Largest residual over the bound of its row, exact up to 1000; 0 if no row is above the limit.
+  /// Largest residual over the bound of its row; 0 if no row is above the limit.
   double share = 0.0;
   int unknown = -1;  ///< global number of the row with the largest residual; -1 likewise
 };
@@ -26,8 +26,9 @@ struct RoundingCheck {
 /// its bound is no rounding. Collective. @source formulation 5.1
 /// @param limit  smaller residuals are not asked about [N, N m]
 /// @param force_scale  Evaluation::force_scale
+/// @param most  of a share above it no more need be known, which costs less
 RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, double limit,
-                             double force_scale);
+                             double force_scale, double most);
 
 /// What rounding of the coordinates alone may store or set in motion in one step: eps^2 c |q|^T |J|
 /// |q| over the nodes, with the last tangent J [J]. Collective.
