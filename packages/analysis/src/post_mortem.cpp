@@ -82,8 +82,7 @@ PostMortem::PostMortem(Context& context, model::State& state, const Stencil& ste
 
 PostMortem::PostMortem(Context& context, model::State& state, const Stencil& stencil)
     : context_(context) {
-  context_.system.evaluate(state, stencil, Want::residual_and_tangent);
-  is_factored_ = context_.linear.factor();
+  factor_for_probe(state, stencil);
   singular_ = find_singular(state);
   refuse_singular();
 }
@@ -126,9 +125,14 @@ double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
 }
 
 bool PostMortem::is_singular(model::State& state, const Stencil& stencil) {
-  context_.system.evaluate(state, stencil, Want::residual_and_tangent);
-  is_factored_ = context_.linear.factor();
+  factor_for_probe(state, stencil);
   return !find_singular(state).empty();
+}
+
+// The solution that find_singular wants is mostly the only one.
+void PostMortem::factor_for_probe(model::State& state, const Stencil& stencil) {
+  context_.system.evaluate(state, stencil, Want::residual_and_tangent);
+  is_factored_ = context_.linear.factor_for(irregular(context_.system.layout().rows()));
 }
 
 void PostMortem::refuse_singular() const {

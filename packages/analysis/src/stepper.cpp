@@ -15,6 +15,7 @@ void Stepper::require(bool holds, const char* verb) {
 
 void Stepper::fit() {
   require(stage_ == Stage::unbegun, "be fitted");
+  system().forget_others(state_);
   do_fit();
   system().show_level(state_);
 }

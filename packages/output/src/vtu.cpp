@@ -95,8 +95,9 @@ void Pictures::make_skins() {
   for (StructureMesh& mesh : meshes_) {
     const Skin& skin = skins_.emplace_back(mesh);
     reference_skins_.push_back(skin.points(mesh.positions, mesh.triads));
-    mesh.triads = {};
-    mesh.outlines = {};
+    // {} would keep the memory
+    mesh.triads = std::vector<Mat3>();
+    mesh.outlines = std::vector<std::vector<Eigen::Vector2d>>();
   }
 }
 

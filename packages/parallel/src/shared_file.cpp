@@ -23,6 +23,23 @@ class Type {
   MPI_Datatype type_;
 };
 
+// What MPI need not know to do the work.
+class Hints {
+ public:
+  Hints() {
+    MPI_Info_create(&info_);
+    // the process that writes for others collects so much at a time: Open MPI would take 32 MB
+    MPI_Info_set(info_, "cb_buffer_size", "4194304");
+  }
+  Hints(const Hints&) = delete;
+  Hints& operator=(const Hints&) = delete;
+  ~Hints() { MPI_Info_free(&info_); }
+  MPI_Info get() const { return info_; }
+
+ private:
+  MPI_Info info_ = MPI_INFO_NULL;
+};
+
 MPI_Datatype make_row(std::size_t width) {
   MPI_Datatype type = MPI_DATATYPE_NULL;
   MPI_Type_contiguous(static_cast<int>(width), MPI_DOUBLE, &type);
@@ -46,7 +63,8 @@ MPI_Datatype make_rows(std::span<const RowRange> rows, std::size_t width, MPI_Da
 
 SharedFile::SharedFile(const Comm& comm, std::filesystem::path path)
     : comm_(comm), path_(std::move(path)) {
-  check(MPI_File_open(comm.handle(), path_.c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_),
+  const Hints hints;
+  check(MPI_File_open(comm.handle(), path_.c_str(), MPI_MODE_WRONLY, hints.get(), &file_),
         "open file");
 }
 

@@ -51,6 +51,7 @@ class PostMortem {
   double load_flexibility(model::State& state, const Stencil& stencil, double level_step);
   /// Why the tangent at `state`, factored or not, is singular to working precision, on all
   /// ranks; empty if it is not.
+  void factor_for_probe(model::State& state, const Stencil& stencil);
   std::string find_singular(const model::State& state);
   const char* time_word() const { return level_step_ == 0.0 ? "time" : "level"; }
   std::string history() const;
