@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Speed and memory of a large slender model on several processes: the flexible pendulum. The time of a step is that
-of a long run less that of a short one; memory is the largest that a process ever had. More elements than a beam may have
-are those of several pendula.
+of a long run less that of a short one; memory is the largest that a process ever had, and what of it were no pages of
+files, such as programs and libraries, which processes on one machine share. More elements than a beam may have are
+those of several pendula.
 
 usage: ranks.py CULM [--elements N] [--ranks 1 2 4] [--steps 4 24] [--repeats 2] [--copies]
 """
@@ -10,6 +11,7 @@ import argparse
 import copy
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -19,10 +21,22 @@ import xml.etree.ElementTree
 INPUTS = pathlib.Path(__file__).resolve().parent.parent.parent / "inputs"
 STEP = 5e-3  # s, of the deck
 LONGEST = 100000  # elements of a beam
-# prints what getrusage knows when the program has ended
-WATCH = ("import os, resource, subprocess, sys; code = subprocess.call(sys.argv[1:], stdout=subprocess.DEVNULL); "
-         "used = resource.getrusage(resource.RUSAGE_CHILDREN); "
-         "print(f'used {used.ru_utime + used.ru_stime} {used.ru_maxrss}', flush=True); sys.exit(code)")
+# prints what getrusage knows when the program has ended, and the most memory without files that was seen
+WATCH = """
+import os, resource, subprocess, sys, time
+program = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL)
+own = 0
+while program.poll() is None:
+    try:
+        with open(f"/proc/{program.pid}/status") as status:
+            own = max([own] + [int(line.split()[1]) for line in status if line.startswith("RssAnon")])
+    except OSError:
+        pass
+    time.sleep(0.02)
+used = resource.getrusage(resource.RUSAGE_CHILDREN)
+print(f"used {used.ru_utime + used.ru_stime} {used.ru_maxrss} {own};", flush=True)
+sys.exit(program.returncode)
+"""
 
 
 def write_pendula(count, path):
@@ -51,7 +65,8 @@ def command(culm, folder, elements, steps):
 
 
 def run(programs):
-    """Wall time [s] of programs beside each other, CPU time [s] and memory [MB] of each process of theirs."""
+    """Wall time [s] of programs beside each other; of each process of theirs CPU time [s], memory, and memory without
+    files [MB]."""
     began = time.monotonic()
     running = [subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for words in programs]
     done = [(program.communicate(), program.returncode) for program in running]
@@ -59,8 +74,10 @@ def run(programs):
     for (_, errors), code in done:
         if code != 0:
             sys.exit(errors)
-    used = [line.split()[1:] for (out, _), _ in done for line in out.splitlines() if line.startswith("used")]
-    return wall, [float(cpu) for cpu, _ in used], [int(size) / 1024 for _, size in used]
+    # processes of MPI may write into one line
+    used = [[float(number) for number in words] for (out, _), _ in done
+            for words in re.findall(r"used (\S+) (\S+) (\S+);", out)]
+    return wall, [cpu for cpu, *_ in used], [size / 1024 for _, size, _ in used], [own / 1024 for *_, own in used]
 
 
 def run_ranks(culm, ranks, elements, steps):
@@ -86,15 +103,15 @@ def main():
     options = parser.parse_args()
     culm = os.path.abspath(options.culm)
     start = run_copies if options.copies else run_ranks
-    print("elements  ranks  whole run [s]  a step [s]  CPU of a step and rank [s]  memory of each rank [MB]")
+    print("elements  ranks  whole run [s]  a step [s]  CPU of a step and rank [s]  memory of each rank [MB], without files")
     for elements in options.elements:
         for ranks in options.ranks:
             runs = {steps: [start(culm, ranks, elements, steps) for _ in range(options.repeats)]
                     for steps in options.steps}
             few, many = options.steps
             best = {steps: min(wall for wall, *_ in results) for steps, results in runs.items()}
-            cpu = {steps: min(max(times) for _, times, _ in results) for steps, results in runs.items()}
-            memory = " ".join(f"{size:.0f}" for size in runs[many][0][2])
+            cpu = {steps: min(max(times) for _, times, *_ in results) for steps, results in runs.items()}
+            memory = ", ".join(" ".join(f"{size:.0f}" for size in sizes) for sizes in runs[many][0][2:])
             print(f"{elements:8d} {ranks:6d} {best[many]:14.2f} {(best[many] - best[few]) / (many - few):11.4f} "
                   f"{(cpu[many] - cpu[few]) / (many - few):27.4f}  {memory}", flush=True)
     return 0
