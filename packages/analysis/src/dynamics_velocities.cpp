@@ -111,7 +111,7 @@ void keep_multipliers(const assembly::System& system, assembly::Vector& solution
   const model::Model& model = system.model();
   const auto u = solution.values();
   for (const assembly::Layout::LocalBlock& local : system.layout().local_blocks()) {
-    const model::Block& block = model.unknowns().block(local.block);
+    const model::Block block = model.unknowns().block(local.block);
     if (!local.owned || block.kind == model::BlockKind::multipliers) continue;
     for (int i = 0; i < block.shape.width; ++i) {
       const int at = block.shape.position[static_cast<std::size_t>(i)];

@@ -1,10 +1,13 @@
 #include <culm/analysis/element_turns.hpp>
+#include <culm/base/error.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <utility>
 
 namespace culm::analysis {
 namespace {
@@ -24,6 +27,24 @@ int deck_number(const model::Structure& structure, int cell) {
     return std::find(parts.begin(), parts.end(), cell) != parts.end();
   });
   return of == numbers.end() ? cell : static_cast<int>(of - numbers.begin());
+}
+
+const model::TurnSource* turns_of(const model::Cell& cell) {
+  return dynamic_cast<const model::TurnSource*>(cell.source);
+}
+
+// Structure and cell of an item.
+std::pair<const model::Structure*, int> place_of(const model::TurnSource& turns, int item,
+                                                 const std::deque<model::Structure>& structures) {
+  for (const model::Structure& structure : structures) {
+    int number = 0;
+    for (const model::Cell& cell : structure.cells) {
+      if (cell.item == item && turns_of(cell) == &turns) return {&structure, number};
+      ++number;
+    }
+  }
+  internal_check(false, "every element belongs to a structure");
+  return {};
 }
 
 }  // namespace
@@ -105,21 +126,16 @@ std::string ElementTurn::warning() const {
 }
 
 ElementTurns::ElementTurns(const assembly::System& system) : system_(system) {
-  const auto& structures = system.model().structures();
-  for (std::size_t s = 0; s < structures.size(); ++s) {
-    for (std::size_t c = 0; c < structures[s].cells.size(); ++c) {
-      const model::Cell& cell = structures[s].cells[c];
-      const auto* turns = dynamic_cast<const model::TurnSource*>(cell.source);
+  for (const model::Structure& structure : system.model().structures()) {
+    for (const model::Cell& cell : structure.cells) {
+      const model::TurnSource* const turns = turns_of(cell);
       if (turns == nullptr || !turns->turn_kind()) continue;
-      auto of = std::find_if(sources_.begin(), sources_.end(),
-                             [&](const Source& source) { return source.turns == turns; });
+      auto of = std::ranges::find(sources_, turns, &Source::turns);
       if (of == sources_.end()) {
         const model::TurnLaw law(turns->turn_kind()->order);
-        of = sources_.insert(of, {turns, law.turn_with(worth_a_warning), {}});
+        of = sources_.insert(of, {turns, law.turn_with(worth_a_warning), 0});
       }
-      const auto item = static_cast<std::size_t>(cell.item);
-      if (of->cells.size() <= item) of->cells.resize(item + 1);
-      of->cells[item] = {static_cast<int>(s), static_cast<int>(c)};
+      of->items = std::max(of->items, cell.item + 1);
     }
   }
 }
@@ -141,26 +157,24 @@ ElementTurn ElementTurns::find(const model::Coordinates& q, double share) const 
   for (const Source& source : sources_) {
     const int item = source.turns->first_turned(q, (1.0 - same) * share * source.good_for);
     if (item >= 0) first = std::min(first, before + item);
-    before += static_cast<int>(source.cells.size());
+    before += source.items;
   }
   first = -system_.comm().max(-first);
   ElementTurn found;
   for (const Source& source : sources_) {
-    const auto item = static_cast<std::size_t>(first);
-    if (item >= source.cells.size()) {
-      first -= static_cast<int>(source.cells.size());
+    if (first >= source.items) {
+      first -= source.items;
       continue;
     }
-    const auto& structure =
-        system_.model().structures()[static_cast<std::size_t>(source.cells[item].first)];
+    const auto [structure, cell] = place_of(*source.turns, first, system_.model().structures());
     const auto& reference = system_.model().nodes().reference();
     const double turn = source.turns->owns(first) ? source.turns->turn_of(first, reference) : 0.0;
     found = {share,
              share * source.good_for,
              system_.comm().max(turn),
              *source.turns->turn_kind(),
-             structure.name,
-             deck_number(structure, source.cells[item].second),
+             structure->name,
+             deck_number(*structure, cell),
              {}};
     break;
   }

@@ -67,7 +67,7 @@ ReportMatrix null_space_basis(const model::Model& model, const model::State& sta
   model::Coordinates motion(state.next.size(), 0.0);
   for (int node = 0; node < nodes.size(); ++node) {
     const int master = null_space ? nodes.master(node) : node;
-    const model::Block& block = unknowns.block(unknowns.node_block(master));
+    const model::Block block = unknowns.block(unknowns.node_block(master));
     for (int i = 0; i < block.shape.width; ++i) {
       const int at = block.shape.position[static_cast<std::size_t>(i)];
       if (at < 0) continue;

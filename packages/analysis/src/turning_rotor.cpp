@@ -37,7 +37,7 @@ const model::SteadyRotation& find_frame(const model::Model& model, const Where& 
 
 // First unknowns of the vectors of a node; none if it has no unknowns of its own or is held.
 std::vector<int> vectors_of(const model::Model& model, int node, const Where& where) {
-  const model::Block& block = model.unknowns().block(model.unknowns().node_block(node));
+  const model::Block block = model.unknowns().block(model.unknowns().node_block(node));
   if (block.owner != node || block.shape.active == 0) return {};
   if (!block.shape.full()) {
     throw InputError(where, fmt::format("a support holds some directions of node {}, which turns; "
@@ -223,10 +223,8 @@ void TurningRotor::refuse_asymmetry(const SparseMatrix& matrix, bool of_hub,
     vectors.insert(vectors.end(), blade.begin(), blade.end());
     for (int at : blade) is_blade[static_cast<std::size_t>(at)] = true;
   }
-  const auto& blocks = system_.model().unknowns().blocks();
   for (int at : vectors) {
-    const auto after = std::ranges::upper_bound(blocks, at, {}, &model::Block::first);
-    const auto block = static_cast<int>(after - blocks.begin()) - 1;
+    const int block = system_.model().unknowns().block_of(at);
     for (int i = 0; i < 3; ++i) {
       block_of[static_cast<std::size_t>(at + i)] = block;
       is_blade[static_cast<std::size_t>(at + i)] = is_blade[static_cast<std::size_t>(at)];

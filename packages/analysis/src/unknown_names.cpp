@@ -29,11 +29,8 @@ std::string quoted_name(const model::Constraint& constraint) {
 }
 
 UnknownNames::Place UnknownNames::place_of(int unknown) const {
-  const auto& blocks = system_.model().unknowns().blocks();
-  const auto after = std::upper_bound(blocks.begin(), blocks.end(), unknown,
-                                      [](int u, const model::Block& b) { return u < b.first; });
-  // blocks without unknowns share the first of their successor, so the last one before is right
-  const model::Block& block = *std::prev(after);
+  const model::UnknownTable& unknowns = system_.model().unknowns();
+  const model::Block block = unknowns.block(unknowns.block_of(unknown));
   const int place = unknown - block.first;
   int written = 0;
   while (block.shape.position[static_cast<std::size_t>(written)] != place) ++written;

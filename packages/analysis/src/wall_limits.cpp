@@ -32,7 +32,7 @@ struct Corners {
     axes.col(1) = axes.col(2).cross(axes.col(0));
   }
 
-  std::span<const int> nodes;
+  CellNodes nodes;
   Mat3 axes;
 };
 

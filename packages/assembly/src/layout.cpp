@@ -20,7 +20,7 @@ Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
 // Blocks that share an item, each block with itself; sorted.
 Layout::Neighbours Layout::couple_blocks(const model::Model& model) const {
   const model::UnknownTable& unknowns = model.unknowns();
-  Neighbours neighbours(unknowns.blocks().size());
+  Neighbours neighbours(index(unknowns.num_blocks()));
   for (std::size_t b = 0; b < neighbours.size(); ++b) {
     neighbours[b].push_back(static_cast<int>(b));
   }
@@ -69,7 +69,7 @@ void Layout::number_locally(const model::UnknownTable& unknowns, const Neighbour
       if (owned) local_row_[b] = column;
       local_column_[b] = column;
       local_blocks_.push_back({static_cast<int>(b), column, owned});
-      const model::Block& block = unknowns.block(static_cast<int>(b));
+      const model::Block block = unknowns.block(static_cast<int>(b));
       column += block.shape.active;
       if (owned && block.kind == model::BlockKind::node) num_node_rows_ = column;
     }
@@ -94,7 +94,7 @@ void Layout::build_pattern(const model::UnknownTable& unknowns, const Neighbours
   std::vector<long long> rows;
   std::vector<long long> columns;
   for (const LocalBlock& local : local_blocks_) {
-    const model::Block& block = unknowns.block(local.block);
+    const model::Block block = unknowns.block(local.block);
     for (int i = 0; i < block.shape.active; ++i) {
       if (local.owned) rows.push_back(block.first + i);
       columns.push_back(block.first + i);

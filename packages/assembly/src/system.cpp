@@ -78,7 +78,7 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
   const auto column_of = matrix_->column_of();
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     if (!local.owned) continue;
-    const model::Block& block = unknowns.block(local.block);
+    const model::Block block = unknowns.block(local.block);
     for (int i = 0; i < block.shape.active; ++i) {
       const auto row = index(local.first_column + i);  // owned columns are numbered as rows
       is_force_row_.push_back(block.kind == model::BlockKind::node);
@@ -97,10 +97,10 @@ System::~System() = default;
 // Nodes that rows of this rank depend on, and the eliminated ones among them.
 void System::find_needed_nodes() {
   const model::UnknownTable& unknowns = model_.unknowns();
-  std::vector<bool> is_local(unknowns.blocks().size(), false);
+  std::vector<bool> is_local(index(unknowns.num_blocks()), false);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     is_local[index(local.block)] = true;
-    const model::Block& block = unknowns.block(local.block);
+    const model::Block block = unknowns.block(local.block);
     const bool moves = block.kind == model::BlockKind::node && block.shape.active > 0;
     if (local.owned && moves) ++num_own_motions_;
   }
@@ -388,7 +388,7 @@ void System::move(model::State& state, const Vector& increment, double factor) {
   const model::UnknownTable& unknowns = model_.unknowns();
   std::optional<NodeMoves> moves(std::in_place, model_.nodes(), state.next);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block& block = unknowns.block(local.block);
+    const model::Block block = unknowns.block(local.block);
     if (block.shape.active == 0) continue;
     const auto u = unknowns_of(block.shape, local.first_column, dx, factor);
     if (block.kind == model::BlockKind::multipliers) {
@@ -418,7 +418,7 @@ const model::Coordinates& System::linear_motion(const model::State& state, const
   const std::span<const double> dx = column_values(increment);
   const model::UnknownTable& unknowns = model_.unknowns();
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block& block = unknowns.block(local.block);
+    const model::Block block = unknowns.block(local.block);
     if (block.kind != model::BlockKind::node) continue;
     const auto u = unknowns_of(block.shape, local.first_column, dx, factor);
     model::NodeTable::slots(linear_increment_, block.owner) =

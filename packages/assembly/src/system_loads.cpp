@@ -43,12 +43,12 @@ class HeldDirections {
   }
 
  private:
-  const model::Block& block_of(int node) const {
+  model::Block block_of(int node) const {
     return model_.unknowns().block(model_.unknowns().node_block(node));
   }
 
   bool is_still(int node) const {
-    const model::Block& block = block_of(node);
+    const model::Block block = block_of(node);
     return block.shape.active == 0 || still_.count(block.owner) > 0;
   }
 
@@ -62,7 +62,7 @@ class HeldDirections {
     }
     if (moving < 0) return true;
     const int node = c.nodes[index(moving)];
-    const model::Block& block = block_of(node);
+    const model::Block block = block_of(node);
     if (block.owner != node) return false;  // it follows another node
     Eigen::MatrixXd& directions = held_[node];
     const Eigen::Matrix3Xd slots = model::slots_of(c, q_);
@@ -141,7 +141,7 @@ LoadShare System::share_of(model::Batch& load, const model::State& state) const 
   if (!model_.equations().empty()) complete(q);  // joints lead to what is held on other ranks
   const HeldDirections held(model_, q);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block& block = model_.unknowns().block(local.block);
+    const model::Block block = model_.unknowns().block(local.block);
     if (!local.owned || block.kind != model::BlockKind::node || block.shape.active == 0) continue;
     Eigen::VectorXd f =
         Eigen::Map<const Eigen::VectorXd>(residual.data() + local.first_column, block.shape.active);

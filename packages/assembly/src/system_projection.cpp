@@ -52,7 +52,7 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
   }
   double largest = 0.0;
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block& block = model_.unknowns().block(local.block);
+    const model::Block block = model_.unknowns().block(local.block);
     if (block.kind != model::BlockKind::node) continue;
     const auto change = model::NodeTable::slots(state.next, block.owner) -
                         model::NodeTable::slots(start, block.owner);
@@ -67,7 +67,7 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
 template <class Action>
 void System::each_moving_node(Action action) const {
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block& block = model_.unknowns().block(local.block);
+    const model::Block block = model_.unknowns().block(local.block);
     if (block.kind == model::BlockKind::node && block.shape.active > 0) {
       action(block.owner, block.shape);
     }
@@ -81,7 +81,7 @@ NodeMotions System::node_motions() const {
   motions.rigid.setZero(static_cast<Eigen::Index>(layout_.rows().size()), 6);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     if (!local.owned) continue;
-    const model::Block& block = model_.unknowns().block(local.block);
+    const model::Block block = model_.unknowns().block(local.block);
     if (block.shape.active == 0) continue;
     motions.widths.push_back(block.shape.active);
     motions.places.push_back(Vec3::Zero());
@@ -218,7 +218,7 @@ std::pair<double, int> System::find_largest(double value, int place) const {
 int System::largest_equation(std::span<const double> rows, double largest) const {
   int equation = -1;
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block& block = model_.unknowns().block(local.block);
+    const model::Block block = model_.unknowns().block(local.block);
     if (!local.owned || block.kind != model::BlockKind::multipliers) continue;
     for (int i = 0; i < block.shape.active; ++i) {
       const double entry = std::abs(rows[index(local.first_column + i)]);
@@ -252,7 +252,7 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   const auto u = velocity.values();
   const auto each_unknown = [&](auto action) {
     for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-      const model::Block& block = unknowns.block(local.block);
+      const model::Block block = unknowns.block(local.block);
       if (block.kind != model::BlockKind::node) continue;
       action(local, block);
     }
@@ -275,7 +275,7 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
     b[row] = is_force_row_[row] ? 0.0 : speed[row] - rates[row] - b[row];
   // nobody knows how fast a signal changes that leads, so what it leads stays as it is
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block& block = unknowns.block(local.block);
+    const model::Block block = unknowns.block(local.block);
     if (!local.owned || block.kind != model::BlockKind::multipliers) continue;
     if (!model_.equations()[index(block.owner)].follow) continue;
     for (int i = 0; i < block.shape.active; ++i) b[index(local.first_column + i)] = 0.0;

@@ -104,8 +104,8 @@ void System::gather_forces(model::State& state) {
   gathered_reactions_ = reactions_;
   if (comm_.size() == 1) return;
   const model::UnknownTable& unknowns = model_.unknowns();
-  for (int b = 0; b < static_cast<int>(unknowns.blocks().size()); ++b) {
-    const model::Block& block = unknowns.block(b);
+  for (int b = 0; b < unknowns.num_blocks(); ++b) {
+    const model::Block block = unknowns.block(b);
     if (block.kind == model::BlockKind::node) continue;
     if (layout_.owners()[index(b)] == comm_.rank()) continue;
     auto& values = block.kind == model::BlockKind::own ? state.own : state.multipliers;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace culm::beam {
 
@@ -65,11 +66,16 @@ void check_choice(const ElementFamilies& families, const Options& beam, InputIss
 std::vector<int> add_nodes(const Chain& chain, const SectionTable& sections, model::Model& model,
                            model::Structure& structure) {
   std::vector<int> numbers;
+  numbers.reserve(chain.size());
   for (const AxisNode& node : chain) {
     model::NodeSlots slots;
     slots << node.position, node.triad;
     numbers.push_back(model.nodes().add(slots));
-    structure.outlines.push_back(sections.at(node.span).outline);
+    // no entries where no node has an outline
+    if (auto outline = sections.at(node.span).outline; !outline.empty()) {
+      structure.outlines.resize(structure.nodes.size() + numbers.size());
+      structure.outlines.back() = std::move(outline);
+    }
     if (std::abs(node.span - 0.5) < 1e-9) structure.sets["middle"].push_back(numbers.back());
   }
   structure.nodes.insert(structure.nodes.end(), numbers.begin(), numbers.end());
@@ -266,9 +272,7 @@ void add_beam(const Options& options, structure::StructureContext& context) {
         largest_turn, family->add({chain, nodes, sections, damping, context.model, structure}));
     if (density.refinement > 1) number_as_in_deck(density.refinement, nodes, structure);
   }
-  const bool has_outlines =
-      std::ranges::any_of(structure.outlines, [](const auto& outline) { return !outline.empty(); });
-  if (!has_outlines) structure.outlines = {};
+  if (!structure.outlines.empty()) structure.outlines.resize(structure.nodes.size());
   structure.sets["first"] = {structure.nodes.front()};
   structure.sets["last"] = {structure.nodes.back()};
   structure.sets["all"] = structure.nodes;

@@ -77,6 +77,7 @@ template <class Beam>
 class Stretches {
  public:
   explicit Stretches(const Place& of) : table_(of.model.nodes()), sections_(of.sections) {
+    spans_.reserve(of.chain.size());
     for (const AxisNode& node : of.chain) spans_.push_back(node.span);
   }
 
@@ -144,6 +145,9 @@ double add_series(const Place& to, const Stretches<Beam>& stretches,
   const int first = batch.add(std::move(series));
   double largest_turn = 0.0;
   int k = 0;
+  // of the only chain, mostly
+  model::LinePoints& points = to.structure.line_points;
+  if (points.empty()) points.reserve(to.nodes.size() / Stretch<Beam>::order * Beam::num_nodes);
   for (const auto& nodes : nodes_of_elements<Beam>(to)) {
     const Stretch<Beam> stretch = stretches.of(nodes, k);
     const int item = first + k++;

@@ -50,7 +50,7 @@ int NodeTable::add(const NodeSlots& slots, NodeKind kind) {
   reference_.append({slots.data(), static_cast<std::size_t>(slots.size())});
   kinds_.push_back(kind);
   fixed_.emplace_back();
-  link_of_.push_back(-1);
+  if (!link_of_.empty()) link_of_.push_back(-1);
   return size() - 1;
 }
 
@@ -79,6 +79,7 @@ bool NodeTable::link(int slave, int master) {
       links_[index(link_of_[index(node)])] = make_link(node, root);
     }
   }
+  link_of_.resize(kinds_.size(), -1);
   link_of_[index(slave)] = static_cast<int>(links_.size());
   links_.push_back(make_link(slave, root));
   return true;

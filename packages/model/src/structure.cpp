@@ -4,24 +4,43 @@
 #include <culm/model/structure.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace culm::model {
 
 void LinePoints::push_back(const LinePoint& point) {
   const Marker& marker = point.marker;
-  if (empty()) per_point_ = marker.nodes.size();
-  internal_check(marker.nodes.size() == per_point_ && marker.offset.isZero(0.0),
-                 "points of a line are of one kind, and on its axis");
-  nodes_.insert(nodes_.end(), marker.nodes.begin(), marker.nodes.end());
-  weights_.insert(weights_.end(), marker.weights.begin(), marker.weights.end());
+  const CellNodes nodes(marker.nodes.begin(), marker.nodes.end());
+  const bool is_first = empty();
+  const bool is_on_last = !is_first && std::ranges::equal(nodes, last_nodes_);
+  if (!is_first && per_element_ == 0 && !is_on_last) per_element_ = size();
+  const bool is_full = per_element_ != 0 && size() % per_element_ == 0;
+  internal_check(marker.offset.isZero(0.0) && (is_first || nodes.size() == last_nodes_.size()) &&
+                     (is_first || is_full || is_on_last),
+                 "elements of a line are of one kind, and points on its axis");
+  if (is_first || is_full) {
+    last_nodes_ = nodes;
+    elements_.push_back({nodes});
+  }
+  const auto weights = std::ranges::find(weights_, marker.weights) - weights_.begin();
+  internal_check(weights <= std::numeric_limits<std::uint8_t>::max(),
+                 "points of a line are few kinds");
+  if (weights == std::ssize(weights_)) weights_.push_back(marker.weights);
+  weights_of_.push_back(static_cast<std::uint8_t>(weights));
   lengths_.push_back(point.length);
 }
 
+void LinePoints::reserve(std::size_t points) {
+  weights_of_.reserve(points);
+  lengths_.reserve(points);
+}
+
 LinePoint LinePoints::operator[](std::size_t i) const {
-  const int* const node = nodes_.data() + per_point_ * i;
-  const double* const weight = weights_.data() + per_point_ * i;
-  return {{{node, node + per_point_}, {weight, weight + per_point_}, Vec3::Zero()}, lengths_[i]};
+  const Cell element = elements_[per_element_ == 0 ? 0 : i / per_element_];
+  return {{{element.nodes.begin(), element.nodes.end()}, weights_[weights_of_[i]], Vec3::Zero()},
+          lengths_[i]};
 }
 
 double LinePoints::length() const { return std::accumulate(lengths_.begin(), lengths_.end(), 0.0); }

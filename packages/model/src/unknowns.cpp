@@ -1,5 +1,7 @@
 #include <culm/model/unknowns.hpp>
 
+#include <algorithm>
+
 namespace culm::model {
 namespace {
 
@@ -19,49 +21,54 @@ BlockShape shape_without(int width, std::bitset<6> fixed) {
 
 UnknownTable::UnknownTable(const NodeTable& nodes, const std::vector<int>& multipliers,
                            const std::vector<OwnBlock>& own, Form form)
-    : first_constraint_(nodes.size()),
+    : num_nodes_(nodes.size()),
       first_own_(nodes.size() + static_cast<int>(multipliers.size())),
       form_(form) {
-  for (int node = 0; node < nodes.size(); ++node) {
-    Block block;
-    block.owner = node;
+  full_shapes_.fill(-1);
+  entries_.reserve(static_cast<std::size_t>(num_nodes_) + multipliers.size() + own.size());
+  const bool follows = form == Form::null_space && nodes.num_slaves() > 0;
+  if (follows) masters_.reserve(static_cast<std::size_t>(num_nodes_));
+  for (int node = 0; node < num_nodes_; ++node) {
     if (form == Form::multipliers) {
-      block.shape = shape_without(coordinates_of(nodes.kind(node)), {});
+      add(coordinates_of(nodes.kind(node)), {});
     } else {
-      const auto fixed = nodes.is_slave(node) ? std::bitset<6>("111111") : nodes.fixed(node);
-      block.shape = shape_without(6, fixed);
+      add(6, nodes.is_slave(node) ? std::bitset<6>("111111") : nodes.fixed(node));
     }
-    node_block_.push_back(form == Form::multipliers ? node : nodes.master(node));
-    blocks_.push_back(block);
+    if (follows) masters_.push_back(nodes.master(node));
   }
-  for (int c = 0; c < static_cast<int>(multipliers.size()); ++c) {
-    Block block;
-    block.kind = BlockKind::multipliers;
-    block.owner = c;
-    block.shape = shape_without(multipliers[static_cast<std::size_t>(c)], {});
-    block.first_value = num_multipliers_;
-    num_multipliers_ += block.shape.width;
-    blocks_.push_back(block);
+  for (const int width : multipliers) {
+    first_values_.push_back(num_multipliers_);
+    num_multipliers_ += width;
+    add(width, {});
   }
-  for (int b = 0; b < static_cast<int>(own.size()); ++b) {
-    const OwnBlock& one = own[static_cast<std::size_t>(b)];
-    Block block;
-    block.kind = BlockKind::own;
-    block.owner = b;
-    block.shape = shape_without(static_cast<int>(one.unknowns.size()), {});
-    block.first_value = one.first;
+  for (const OwnBlock& one : own) {
+    first_values_.push_back(one.first);
     for (const OwnUnknown& unknown : one.unknowns) {
       num_own_multipliers_ += unknown.kind == UnknownKind::multiplier;
       ++num_own_;
     }
-    blocks_.push_back(block);
+    add(static_cast<int>(one.unknowns.size()), {});
   }
-  for (Block& block : blocks_) {
-    block.first = num_unknowns_;
-    num_unknowns_ += block.shape.active;
-    block.shape.first_reaction = num_reactions_;
-    num_reactions_ += block.shape.width - block.shape.active;
+}
+
+void UnknownTable::add(int width, std::bitset<6> fixed) {
+  BlockShape shape = shape_without(width, fixed);
+  shape.first_reaction = num_reactions_;
+  int& shared = full_shapes_[static_cast<std::size_t>(width)];
+  const bool is_new = !shape.full() || shared < 0;
+  entries_.push_back({is_new ? static_cast<int>(shapes_.size()) : shared, num_unknowns_});
+  if (is_new) {
+    if (shape.full()) shared = static_cast<int>(shapes_.size());
+    shapes_.push_back(shape);
   }
+  num_unknowns_ += shape.active;
+  num_reactions_ += shape.width - shape.active;
+}
+
+int UnknownTable::block_of(int unknown) const {
+  // blocks without unknowns share the first of their successor, so the last one before is right
+  const auto after = std::ranges::upper_bound(entries_, unknown, {}, &Entry::first);
+  return static_cast<int>(after - entries_.begin()) - 1;
 }
 
 }  // namespace culm::model

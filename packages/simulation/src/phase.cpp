@@ -80,7 +80,7 @@ Ranges<std::string> multipliers_of(const model::Model& model) {
   Occurrences<std::string> occurrences;
   for (std::size_t i = 0; i < model.equations().size(); ++i) {
     const model::UnknownTable& unknowns = model.unknowns();
-    const model::Block& block = unknowns.block(unknowns.constraint_block(static_cast<int>(i)));
+    const model::Block block = unknowns.block(unknowns.constraint_block(static_cast<int>(i)));
     ranges[occurrences.next(model.equations()[i].name)] = {
         static_cast<std::size_t>(block.first_value), static_cast<std::size_t>(block.shape.width)};
   }

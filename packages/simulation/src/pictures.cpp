@@ -153,7 +153,7 @@ output::StructureMesh frame_of(const model::Structure& structure, const LayerSet
   if (is_shell) frame.directors = output::Directors::single;
   const auto cell = std::ranges::find_if(structure.cells,
                                          [](const model::Cell& c) { return c.source != nullptr; });
-  if (cell != structure.cells.end()) frame.resultant_names = cell->source->resultant_names();
+  if (cell != structure.cells.end()) frame.resultant_names = (*cell).source->resultant_names();
   frame.cell_arrays = layer_arrays(structure, layers);
   return frame;
 }

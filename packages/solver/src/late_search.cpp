@@ -19,7 +19,7 @@ std::vector<double> weights_of(const assembly::System& system) {
   const model::Model& model = system.model();
   for (const assembly::Layout::LocalBlock& local : system.layout().local_blocks()) {
     if (!local.owned) continue;
-    const model::Block& block = model.unknowns().block(local.block);
+    const model::Block block = model.unknowns().block(local.block);
     for (int i = 0; i < block.shape.width; ++i) {
       if (block.shape.position[static_cast<std::size_t>(i)] < 0) continue;
       const bool is_node = block.kind == model::BlockKind::node;

@@ -58,8 +58,8 @@ class ElementTurns {
   // elements of one kind
   struct Source {
     const model::TurnSource* turns;
-    double good_for;                         // [rad]
-    std::vector<std::pair<int, int>> cells;  // structure and its cell, by item
+    double good_for;  // [rad]
+    int items;        // how many it has
   };
 
   const assembly::System& system_;

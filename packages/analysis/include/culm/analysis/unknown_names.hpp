@@ -26,7 +26,7 @@ class UnknownNames {
   };
   /// Which unknown of its block a number means: of 12 coordinates, 6 motions or the multipliers.
   struct Place {
-    const model::Block& block;
+    model::Block block;
     int written = 0;
   };
 

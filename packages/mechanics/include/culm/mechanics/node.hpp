@@ -3,10 +3,12 @@
 
 #include <culm/math/types.hpp>
 
+#include <cstdint>
+
 namespace culm {
 
 /// A node carries 3-vectors called slots: a position and its directors.
-enum class NodeKind {
+enum class NodeKind : std::uint8_t {
   node6,   ///< position and one extensible director (shells): x, d
   node12,  ///< position and an orthonormal triad (beams, rigid bodies): x, d1, d2, d3
 };

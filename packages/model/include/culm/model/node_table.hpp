@@ -7,6 +7,7 @@
 
 #include <array>
 #include <bitset>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -50,14 +51,17 @@ class NodeTable {
 
   /// Takes away some of the six unknowns of a node: translations 0-2, rotations 3-5, of a shell
   /// node the components of its director 3-5.
-  void fix(int node, std::bitset<6> unknowns) { fixed_[index(node)] |= unknowns; }
+  void fix(int node, std::bitset<6> unknowns) {
+    fixed_[index(node)] |= static_cast<std::uint8_t>(unknowns.to_ulong());
+  }
   std::bitset<6> fixed(int node) const { return fixed_[index(node)]; }
 
   /// Makes `slave` follow `master` rigidly. Chains are collapsed to one master.
   /// @return false when that would close a loop of links or give a node a second master
   bool link(int slave, int master);
   /// Whether a node has no unknowns of its own.
-  bool is_slave(int node) const { return link_of_[index(node)] >= 0; }
+  bool is_slave(int node) const { return !link_of_.empty() && link_of_[index(node)] >= 0; }
+  int num_slaves() const { return static_cast<int>(links_.size()); }
   /// The node whose unknowns move this one: its master, or itself.
   int master(int node) const { return is_slave(node) ? rigid_link(node).master : node; }
   /// @pre is_slave(node)
@@ -88,8 +92,8 @@ class NodeTable {
 
   Coordinates reference_;
   std::vector<NodeKind> kinds_;
-  std::vector<std::bitset<6>> fixed_;
-  std::vector<int> link_of_;  // of each node among the links, or -1: few nodes have one
+  std::vector<std::uint8_t> fixed_;
+  std::vector<int> link_of_;  // of each node among the links, or -1; empty without links
   std::vector<RigidLink> links_;
 };
 

@@ -1,11 +1,12 @@
 /// Named groups of nodes and elements, and the material points they give out.
 #pragma once
 
-#include <culm/base/cell_nodes.hpp>
 #include <culm/math/types.hpp>
+#include <culm/model/cells.hpp>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,7 +16,6 @@
 namespace culm::model {
 
 class LayerSource;
-class ResultantSource;
 
 /// A material point: a constant linear map from node coordinates to its position and directors,
 ///   x = sum_a N_a (x_a + sum_k offset_k d_k,a),   d_k = sum_a N_a d_k,a.   @source formulation 3.7
@@ -34,8 +34,8 @@ struct LinePoint {
   double length = 0.0;  ///< quadrature weight [m]
 };
 
-/// The quadrature points of a line, element after element. Long lines have many, so that they are
-/// kept without what a LinePoint needs to stand alone.
+/// The quadrature points of a line, element after element. Every process knows those of long lines,
+/// so that what many of them share is kept once.
 class LinePoints {
  public:
   LinePoints() = default;
@@ -43,8 +43,11 @@ class LinePoints {
     for (const LinePoint& point : points) push_back(point);
   }
 
-  /// @pre at no offset, and on as many nodes as those before
+  /// @pre at no offset, on as many nodes as those before, and as many in a row on the same nodes as
+  /// in the first element
   void push_back(const LinePoint& point);
+  /// Room for so many.
+  void reserve(std::size_t points);
   std::size_t size() const { return lengths_.size(); }
   bool empty() const { return lengths_.empty(); }
   LinePoint operator[](std::size_t i) const;
@@ -56,9 +59,11 @@ class LinePoints {
   std::vector<LinePoint> copy() const { return copy(0, size()); }
 
  private:
-  std::size_t per_point_ = 0;    // nodes
-  std::vector<int> nodes_;       // of point after point
-  std::vector<double> weights_;  // likewise
+  Cells elements_;
+  CellNodes last_nodes_;
+  std::size_t per_element_ = 0;               // points; not known within the first
+  std::vector<std::vector<double>> weights_;  // all that occur
+  std::vector<std::uint8_t> weights_of_;      // of each point, among them
   std::vector<double> lengths_;
 };
 
@@ -67,13 +72,6 @@ class LinePoints {
 struct Face {
   std::array<int, 4> nodes;
   double thickness = 0.0;  ///< zeta from -thickness / 2 to thickness / 2 [m]
-};
-
-/// What an element looks like in pictures: its nodes in order along the line or around the face.
-struct Cell {
-  CellNodes nodes;
-  const ResultantSource* source = nullptr;  ///< where its stress resultants come from
-  int item = 0;                             ///< its number there
 };
 
 /// Which nodes and cells of a refined structure the numbers of a deck mean: those of the mesh as
@@ -88,7 +86,7 @@ struct Structure {
   std::string name;
   std::vector<int> nodes;                        ///< node numbers in the model, in order
   std::map<std::string, std::vector<int>> sets;  ///< named node sets: first, last, all, …
-  std::vector<Cell> cells;
+  Cells cells;
   LinePoints line_points;  ///< quadrature points for loads per length
   /// The same of its edges by name; an edge is also a node set.
   std::map<std::string, std::vector<LinePoint>> edges;
