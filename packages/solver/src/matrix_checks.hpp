@@ -26,10 +26,8 @@ std::vector<int> first_columns(const assembly::CrsMatrix& A);
 
 /// Residuals above it are more than rounding.
 constexpr double good_residual = 1e-14;
-/// Newton's method makes up for less.
-constexpr double largest_without_refinement = 1e-13;
-/// Above it pivots that were not chosen for this matrix are not to be trusted; those that were
-/// leave little more than rounding.
+/// Newton's method makes up for less. Above it pivots that were not chosen for this matrix are not
+/// to be trusted; those that were leave little more than rounding.
 constexpr double largest_residual_of_doubtful_pivots = 1e-12;
 
 /// Refines a solution, up to twice and as long as it helps.

@@ -97,7 +97,9 @@ class SerialSolver final : public LinearSolver {
       return residual(*matrix_, first_columns_, x, b, rest).relative();
     };
     const double achieved = check({});
-    if (achieved <= largest_without_refinement || !factors_.wants_refinement()) return achieved;
+    if (achieved <= largest_residual_of_doubtful_pivots || !factors_.wants_refinement()) {
+      return achieved;
+    }
     const auto correct = [&] {
       rest_.resize(b.size());
       check(rest_);

@@ -57,7 +57,7 @@ class SubstructuredSolver final : public LinearSolver {
     if (uses_whole_) return whole().solve(b, x);
     apply_inverse(b, x);
     double achieved = check_(b, x);
-    if (achieved > largest_without_refinement) {
+    if (achieved > largest_residual_of_doubtful_pivots) {
       const auto correct = [&] {
         if (!correction_) correction_.emplace(b.rows());
         check_.keep_rest(b, x);
