@@ -1,8 +1,8 @@
-#include <culm/base/freed_memory.hpp>
 #include <culm/parallel/mpi_session.hpp>
 #include <culm/simulation/session.hpp>
 
 #include <Kokkos_Core.hpp>
+#include <malloc.h>
 
 #include <array>
 
@@ -19,7 +19,9 @@ struct Session::Scope {
 };
 
 Session::Session(int& /*argc*/, char**& argv) {
-  set_freed_memory(FreedMemory::given_back);
+  // keeps the factors of a direct solver from going back to the system after every iteration
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
   scope_ = std::make_unique<Scope>(argv[0]);
 }
 

@@ -1,6 +1,5 @@
 #include <culm/analysis/dynamics.hpp>
 #include <culm/base/error.hpp>
-#include <culm/base/freed_memory.hpp>
 #include <culm/coupling/partner_error.hpp>
 #include <culm/port/report.hpp>
 #include <culm/simulation/input_files.hpp>
@@ -200,7 +199,6 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
   const std::size_t first = p.present;
   for (std::size_t i = first; i < entries.size(); ++i) {
     const bool resumes = from != nullptr && i == first;
-    set_freed_memory(FreedMemory::given_back);
     Phase& phase = p.phases.enter(i, p.comm, p.ledger);
     if (!resumes) start_analysis(i, state);
     phase.system->synchronise(state);
@@ -264,7 +262,6 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
       }
       return analysis::run(*stepper, observer);
     };
-    set_freed_memory(FreedMemory::kept);
     const analysis::AnalysisReport report = make_steps();
     observer.finish(report, state);
     return report;
