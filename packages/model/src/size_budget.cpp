@@ -12,10 +12,10 @@ namespace {
 
 // Measured on runs of squares and strips of 1000 to 40 000 elements, and of beams [B].
 constexpr double shell_element = 13e3;
-constexpr double beam_node = 6.5e3;
+constexpr double beam_node = 5.5e3;
 // of that, what every process has: places, numbers, meshes and what belongs to files
 constexpr double shell_element_whole = 3.5e3;
-constexpr double beam_node_whole = 1.5e3;
+constexpr double beam_node_whole = 0.9e3;
 constexpr double beam_node_factors = 1.5e3;
 constexpr double shell_element_grids = 7.1e3;  // of the iterative solver
 constexpr double layer_array = 1040.0;         // of one layer in one element

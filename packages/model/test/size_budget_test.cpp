@@ -20,11 +20,11 @@ std::string refusal(SizeBudget& budget, double elements) {
 
 TEST(SizeBudget, IsSharedByAllThatAsk) {
   SizeBudget budget(1e9);
-  EXPECT_EQ(refusal(budget, 7e4), "");
-  EXPECT_EQ(refusal(budget, 5e4), "");
+  EXPECT_EQ(refusal(budget, 8e4), "");
+  EXPECT_EQ(refusal(budget, 6e4), "");
   EXPECT_EQ(refusal(budget, 1e9),
             "deck.xml:7: Structures / beam / Curve: asks for 1000000000 elements, with which the "
-            "model needs about 8 TB (elements 6.5 TB, factors 1.5 TB) of memory and 1 GB are "
+            "model needs about 7 TB (elements 5.5 TB, factors 1.5 TB) of memory and 1 GB are "
             "allowed: take fewer elements, or allow more with --max-memory");
 }
 
