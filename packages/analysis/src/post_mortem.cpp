@@ -77,13 +77,12 @@ PostMortem::PostMortem(Context& context, model::State& state, const Stencil& ste
                        double first_level)
     : context_(context), level_step_(first_level - state.time) {
   first_flexibility_ = load_flexibility(state, stencil, level_step_);
-  singular_ = find_singular(state);
+  singular_ = judge(state, irregular(context.system.layout().rows()));
 }
 
 PostMortem::PostMortem(Context& context, model::State& state, const Stencil& stencil)
     : context_(context) {
-  factor_for_probe(state, stencil);
-  singular_ = find_singular(state);
+  singular_ = find_singular(state, stencil);
   refuse_singular();
 }
 
@@ -125,24 +124,23 @@ double PostMortem::load_flexibility(model::State& state, const Stencil& stencil,
 }
 
 bool PostMortem::is_singular(model::State& state, const Stencil& stencil) {
-  factor_for_probe(state, stencil);
-  return !find_singular(state).empty();
+  return !find_singular(state, stencil).empty();
 }
 
-// The solution that find_singular wants is mostly the only one.
-void PostMortem::factor_for_probe(model::State& state, const Stencil& stencil) {
+std::string PostMortem::find_singular(model::State& state, const Stencil& stencil) {
   context_.system.evaluate(state, stencil, Want::residual_and_tangent);
-  is_factored_ = context_.linear.factor_for(irregular(context_.system.layout().rows()));
+  const Vector probe = irregular(context_.system.layout().rows());
+  is_factored_ = context_.linear.factor_for(probe);  // the only solution, mostly
+  return judge(state, probe);
 }
 
 void PostMortem::refuse_singular() const {
   if (is_singular()) throw NumericalError(singular_);
 }
 
-std::string PostMortem::find_singular(const model::State& state) {
+std::string PostMortem::judge(const model::State& state, const Vector& probe) {
   assembly::System& system = context_.system;
   if (system.layout().rows().total() == 0) return {};  // held or rigid altogether
-  const Vector probe = irregular(system.layout().rows());
   Vector response(system.layout().rows());
   const double size = system.matrix()->norm();
   if (!std::isfinite(size)) {

@@ -49,10 +49,10 @@ class PostMortem {
   /// d . p for the response K d = p to the load p of a unit level: grows without bound, then
   /// changes sign, where load control ends. Infinite when the tangent is singular.
   double load_flexibility(model::State& state, const Stencil& stencil, double level_step);
-  /// Why the tangent at `state`, factored or not, is singular to working precision, on all
-  /// ranks; empty if it is not.
-  void factor_for_probe(model::State& state, const Stencil& stencil);
-  std::string find_singular(const model::State& state);
+  /// Why the tangent at `state` is singular to working precision, on all ranks; empty if it is not.
+  std::string find_singular(model::State& state, const Stencil& stencil);
+  /// The same of the tangent at hand, factored or not, by its response to a probe.
+  std::string judge(const model::State& state, const assembly::Vector& probe);
   const char* time_word() const { return level_step_ == 0.0 ? "time" : "level"; }
   std::string history() const;
   std::string worst_rows() const;
