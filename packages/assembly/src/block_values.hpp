@@ -18,12 +18,13 @@ inline double own_scale(const model::OwnUnknown& unknown, double multiplier_scal
 }
 
 /// Unknowns of a block as kernels write them, zero where supports took them away.
-inline std::array<double, 12> unknowns_of(const model::BlockShape& shape, int first_column,
+/// @param values  from those of the block on
+inline std::array<double, 12> unknowns_of(const model::BlockShape& shape,
                                           std::span<const double> values, double factor) {
   std::array<double, 12> u{};
   for (int i = 0; i < shape.width; ++i) {
     const int at = shape.position[index(i)];
-    if (at >= 0) u[index(i)] = factor * values[index(first_column + at)];
+    if (at >= 0) u[index(i)] = factor * values[index(at)];
   }
   return u;
 }

@@ -1,4 +1,6 @@
+#include <culm/assembly/ghost_import.hpp>
 #include <culm/assembly/tpetra.hpp>
+#include <culm/base/large_vector.hpp>
 #include <culm/math/types.hpp>
 
 #include <Teuchos_CommHelpers.hpp>
@@ -24,7 +26,12 @@ Teuchos::RCP<const CrsGraph> make_graph(const Rows& rows, const Rows& columns,
 }
 
 Teuchos::RCP<CrsMatrix> make_matrix(const Teuchos::RCP<const CrsGraph>& graph) {
-  const auto matrix = Teuchos::rcp(new CrsMatrix(graph));
+  using Values = CrsMatrix::local_matrix_device_type::values_type;
+  const Values values(Kokkos::view_alloc("values", Kokkos::WithoutInitializing),
+                      graph->getNodeNumEntries());
+  prefer_large_pages(values.data(), values.size() * sizeof(double));
+  std::fill_n(values.data(), values.size(), 0.0);
+  const auto matrix = Teuchos::rcp(new CrsMatrix(graph, values));
   matrix->fillComplete(graph->getDomainMap(), graph->getRangeMap());
   return matrix;
 }
@@ -54,6 +61,15 @@ Teuchos::RCP<CrsMatrix> take_rows(const Teuchos::RCP<const Map>& rows,
   return matrix;
 }
 
+// None where columns are numbered in another way.
+std::unique_ptr<GhostImport> find_ghosts(const Rows& rows, const Rows& columns) {
+  const auto ranks = tpetra(rows)->getComm();
+  const int fits = begin_with_rows(rows, columns) ? 1 : 0;
+  int all_fit = 0;
+  Teuchos::reduceAll(*ranks, Teuchos::REDUCE_MIN, fits, Teuchos::outArg(all_fit));
+  return all_fit == 1 ? std::make_unique<GhostImport>(rows, columns) : nullptr;
+}
+
 }  // namespace
 
 Pattern::Pattern(const Rows& rows, const Rows& columns, std::span<const std::size_t> begin,
@@ -79,6 +95,8 @@ Matrix::Stored::Stored(Teuchos::RCP<CrsMatrix> filled)
     : matrix(std::move(filled)),
       rows(rows_of(matrix->getRowMap())),
       columns(rows_of(matrix->getColMap())) {}
+
+Matrix::Stored::~Stored() = default;
 
 Matrix::Matrix(const Pattern& pattern)
     : Matrix(std::make_unique<Stored>(make_matrix(pattern.stored().graph))) {}
@@ -112,8 +130,21 @@ std::vector<double> Matrix::diagonal() const {
   return {values.begin(), values.end()};
 }
 
+// Tpetra would keep a copy of x over all columns as long as the matrix. On one rank as on several,
+// so that sums are rounded the same way.
 void Matrix::multiply(const Vector& x, Vector& y) const {
-  stored_->matrix->apply(tpetra(x), tpetra(y));
+  if (!stored_->ghosts) stored_->ghosts = find_ghosts(rows(), columns());
+  GhostImport* const ghosts = stored_->ghosts->get();
+  if (ghosts == nullptr) return stored_->matrix->apply(tpetra(x), tpetra(y));
+  const ColumnValues all = (*ghosts)(x);
+  const auto sums = y.values();
+  for (std::size_t row = 0; row < sums.size(); ++row) {
+    double sum = 0.0;
+    for (std::size_t k = row_begin_[row]; k < row_begin_[row + 1]; ++k) {
+      sum += values_[k] * all[column_of_[k]];
+    }
+    sums[row] = sum;
+  }
 }
 
 // Tpetra remembers the norm that it found first, whatever values are written since.

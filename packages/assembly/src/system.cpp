@@ -1,9 +1,9 @@
+#include <culm/assembly/ghost_import.hpp>
 #include <culm/assembly/system.hpp>
 #include <culm/model/delayed.hpp>
 #include <culm/parallel/shared_failure.hpp>
 
 #include "block_values.hpp"
-#include "column_import.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
     }
   }
   if (comm_.size() > 1) {
-    column_import_ = std::make_unique<ColumnImport>(layout_.rows(), layout_.columns());
+    ghosts_ = std::make_unique<GhostImport>(layout_.rows(), layout_.columns());
   }
   const auto row_begin = matrix_->row_begin();
   const auto column_of = matrix_->column_of();
@@ -377,20 +377,20 @@ void System::stiffen(double share) {
   }
 }
 
-// Of this rank's columns; valid until the next call.
-std::span<const double> System::column_values(const Vector& increment) {
-  return column_import_ ? (*column_import_)(increment) : increment.values();
+// Valid as long as the increment and until the next call.
+ColumnValues System::column_values(const Vector& increment) {
+  return ghosts_ ? (*ghosts_)(increment) : ColumnValues{increment.values(), {}};
 }
 
 void System::move(model::State& state, const Vector& increment, double factor) {
   const Ledger::Scope scope(ledger_, update_effect_);
-  const std::span<const double> dx = column_values(increment);
+  const ColumnValues dx = column_values(increment);
   const model::UnknownTable& unknowns = model_.unknowns();
   std::optional<NodeMoves> moves(std::in_place, model_.nodes(), state.next);
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block block = unknowns.block(local.block);
     if (block.shape.active == 0) continue;
-    const auto u = unknowns_of(block.shape, local.first_column, dx, factor);
+    const auto u = unknowns_of(block.shape, dx.from(local.first_column), factor);
     if (block.kind == model::BlockKind::multipliers) {
       for (int i = 0; i < block.shape.width; ++i) {
         state.multipliers[index(block.first_value + i)] += multiplier_scale_ * u[index(i)];
@@ -415,12 +415,12 @@ void System::move(model::State& state, const Vector& increment, double factor) {
 
 const model::Coordinates& System::linear_motion(const model::State& state, const Vector& increment,
                                                 double factor) {
-  const std::span<const double> dx = column_values(increment);
+  const ColumnValues dx = column_values(increment);
   const model::UnknownTable& unknowns = model_.unknowns();
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block block = unknowns.block(local.block);
     if (block.kind != model::BlockKind::node) continue;
-    const auto u = unknowns_of(block.shape, local.first_column, dx, factor);
+    const auto u = unknowns_of(block.shape, dx.from(local.first_column), factor);
     model::NodeTable::slots(linear_increment_, block.owner) =
         slot_motion(model_, block.owner, u, state.next);
   }

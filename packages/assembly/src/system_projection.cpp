@@ -284,10 +284,10 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   solve_mass(rhs, change);
   velocity.update(1.0, change);
 
-  const std::span<const double> all = column_values(velocity);
+  const ColumnValues all = column_values(velocity);
   fitted.assign(state.velocity.size(), 0.0);
   each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
-    const auto w = unknowns_of(block.shape, local.first_column, all, 1.0);
+    const auto w = unknowns_of(block.shape, all.from(local.first_column), 1.0);
     model::NodeTable::slots(fitted, block.owner) = slot_motion(model_, block.owner, w, state.next);
   });
   for (int slave : slaves_) model_.nodes().follow_master(slave, fitted);

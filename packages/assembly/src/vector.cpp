@@ -4,16 +4,31 @@
 #include <Teuchos_DefaultSerialComm.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 namespace culm::assembly {
 namespace {
+
+// Whether all numbers follow each other, from rank to rank.
+bool are_in_order(std::span<const long long> mine, const parallel::Comm& comm) {
+  std::vector<double> counts(static_cast<std::size_t>(comm.size()), 0.0);
+  const auto before = counts.begin() + comm.rank();
+  *before = static_cast<double>(mine.size());
+  comm.sum(counts);
+  auto next = static_cast<long long>(std::accumulate(counts.begin(), before, 0.0));
+  const bool here = std::ranges::all_of(mine, [&](long long number) { return number == next++; });
+  return comm.max(here ? 0 : 1) == 0;
+}
 
 Teuchos::RCP<const Map> make_map(std::span<const long long> mine, const parallel::Comm& comm) {
   const auto ranks = ranks_of(comm);
   // contiguous: what KLU2 wants
   if (comm.size() == 1) return Teuchos::rcp(new Map(mine.size(), 0, ranks));
   const auto sum = Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid();
+  // it knows each of other numbers, and which rank has it
+  if (are_in_order(mine, comm)) return Teuchos::rcp(new Map(sum, mine.size(), 0, ranks));
   const Teuchos::ArrayView<const GlobalIndex> numbers(
       mine.data(), static_cast<Teuchos::ArrayView<const GlobalIndex>::size_type>(mine.size()));
   return Teuchos::rcp(new Map(sum, numbers, 0, ranks));

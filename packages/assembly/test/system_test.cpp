@@ -63,6 +63,45 @@ TEST_P(SystemTest, DistributedSystemEqualsDenseAssembly) {
   }
 }
 
+// Of the tangent, whose columns begin with the rows of a rank, and of a matrix that was given
+// whole, where columns that nothing stands in are left out.
+TEST_P(SystemTest, ProductsAreThoseOfTheWholeMatrix) {
+  model::Model reference_model;
+  build(reference_model, GetParam());
+  kit::DenseAssembly dense(reference_model);
+  const model::State state = kit::random_state(reference_model, 3);
+  const Stencil stencil = Stencil::midpoint(0.1);
+  dense.prepare(state, stencil);
+  const Eigen::MatrixXd tangent = dense.tangent(state, stencil);
+
+  model::Model model;
+  build(model, GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  system.prepare(state, stencil);
+  system.evaluate(state, stencil, Want::residual_and_tangent);
+  Eigen::SparseMatrix<double> few(tangent.rows(), tangent.cols());
+  few.insert(0, tangent.cols() - 1) = 2.0;
+  few.insert(tangent.rows() - 1, 1) = -3.0;
+
+  const Rows& rows = system.layout().rows();
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(tangent.cols(), -1.0, 2.0);
+  Vector mine(rows), product(rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) mine.values()[i] = x[rows.global(i)];
+  const auto expect_product = [&](const Matrix& matrix, const Eigen::VectorXd& expected) {
+    for (int twice = 0; twice < 2; ++twice) {
+      product.fill(7.0);
+      matrix.multiply(mine, product);
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_NEAR(product.values()[i], expected[rows.global(i)],
+                    1e-13 * tangent.cwiseAbs().maxCoeff());
+      }
+    }
+  };
+  expect_product(*system.matrix(), tangent * x);
+  expect_product(Matrix(rows, few), few * x);
+}
+
 TEST_P(SystemTest, MoveAndSynchroniseGiveTheSameStateOnAllRanks) {
   model::Model model;
   build(model, GetParam());

@@ -17,6 +17,18 @@ int tries(const Graph& graph) {
   return is_surface ? 8 : 1;
 }
 
+// Numbers parts as the first vertices of each are: those of a chain follow each other then, and
+// who numbers rows by vertices has them in one piece on each rank.
+void number_by_first(std::vector<int>& owner, int parts) {
+  std::vector<int> number(static_cast<std::size_t>(parts), -1);
+  int next = 0;
+  for (int& part : owner) {
+    int& mine = number[static_cast<std::size_t>(part)];
+    if (mine < 0) mine = next++;
+    part = mine;
+  }
+}
+
 }  // namespace
 
 std::vector<int> partition(const Graph& graph, int ranks) {
@@ -43,6 +55,7 @@ std::vector<int> partition(const Graph& graph, int ranks) {
       METIS_PartGraphRecursive(&vertices, &balance, begin, neighbours, weights, nullptr, nullptr,
                                &parts, nullptr, nullptr, options, &cut, owner.data());
   internal_check(status == METIS_OK, "METIS could not partition the graph");
+  number_by_first(owner, ranks);
   return owner;
 }
 

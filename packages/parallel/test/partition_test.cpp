@@ -28,6 +28,14 @@ TEST(Partition, ChainIsCutIntoEqualRuns) {
   EXPECT_EQ(cuts, 2);
 }
 
+// So that the rows of a chain are numbered from rank to rank.
+TEST(Partition, PartsAreNumberedAsTheyBegin) {
+  const std::vector<int> owner = partition(chain(90), 5);
+  EXPECT_TRUE(std::ranges::is_sorted(owner));
+  EXPECT_EQ(owner.front(), 0);
+  EXPECT_EQ(owner.back(), 4);
+}
+
 TEST(Partition, IsReproducible) { EXPECT_EQ(partition(chain(57), 4), partition(chain(57), 4)); }
 
 TEST(Partition, OneRankOwnsEverything) {

@@ -78,7 +78,7 @@ template <class Visit>
 }
 
 // Room for so many numbers and for what is read behind them.
-void resize(std::vector<Packs<1>>& packs, std::size_t numbers) {
+void resize(LargeVector<Packs<1>>& packs, std::size_t numbers) {
   if (numbers > 0) numbers += numbers_behind;
   packs.assign((numbers + pack_lanes - 1) / pack_lanes, Packs<1>());
 }
@@ -129,7 +129,7 @@ bool BlockLu::factor_and_merge(const std::vector<int>& hosts, double least, cons
 // What only later reductions read is neither written nor given memory before there are any.
 void BlockLu::keep_lower(bool wanted) {
   keeps_lower_ = wanted;
-  if (!wanted) lower_ = std::vector<Packs<1>>();  // {} would keep the memory
+  if (!wanted) lower_ = LargeVector<Packs<1>>();  // {} would keep the memory
   if (wanted && has_bench() && lower_.empty()) resize(lower_, plan_.num_lower);
   exchanged_.resize(is_whole() ? plan_.unknown.size() : row_weight_.size());
 }

@@ -1,6 +1,7 @@
 /// LU factors of dense blocks, for graphs like chains and trees.
 #pragma once
 
+#include <culm/base/large_vector.hpp>
 #include <culm/mechanics/pack.hpp>
 #include <culm/solver/linear_solver.hpp>
 
@@ -59,10 +60,10 @@ class BlockLu {
   bool set_hosts(std::span<const int> host);
 
  private:
-  static double* numbers_of(std::vector<Packs<1>>& packs) {
+  static double* numbers_of(LargeVector<Packs<1>>& packs) {
     return reinterpret_cast<double*>(packs.data());
   }
-  static const double* numbers_of(const std::vector<Packs<1>>& packs) {
+  static const double* numbers_of(const LargeVector<Packs<1>>& packs) {
     return reinterpret_cast<const double*>(packs.data());
   }
   bool has_bench() const { return plan_.bench_size > 0; }
@@ -130,9 +131,9 @@ class BlockLu {
   const BlockPlan::Panel* failed_ = nullptr;  ///< whose pivots are nothing but rounding
   std::vector<BlockPlan::Place> diagonal_;    ///< by place: source of its entry; `no_place`
   std::vector<int> place_;                    ///< of each row
-  std::vector<Packs<1>> bench_;               ///< where panels are made, see BlockPlan
-  std::vector<Packs<1>> factors_;
-  std::vector<Packs<1>> lower_;      ///< D and L that come from a bench
+  LargeVector<Packs<1>> bench_;               ///< where panels are made, see BlockPlan
+  LargeVector<Packs<1>> factors_;
+  LargeVector<Packs<1>> lower_;      ///< D and L that come from a bench
   bool keeps_lower_ = true;          ///< of the factors that are there or being made
   bool reduces_again_ = false;       ///< these served more than the x that came with them
   std::vector<double> reciprocals_;  ///< by place: of pivots

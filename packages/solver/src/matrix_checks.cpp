@@ -84,20 +84,42 @@ struct RowSum {
   return sum;
 }
 
+// Columns of which others own some; there are few such rows.
+RowSum multiply(const double* row, const int* columns, const assembly::ColumnValues& x,
+                std::size_t count) {
+  RowSum sum;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double product = row[k] * x[columns[k]];
+    sum.products += product;
+    sum.sizes += std::abs(product);
+  }
+  return sum;
+}
+
 // Columns are in order, and in chains mostly side by side.
 CULM_FOR_EACH_VECTOR_UNIT Residual residual_of(const std::size_t* row_begin, const int* columns,
                                                const int* first_column, const double* values,
-                                               const double* x, std::span<const double> b,
-                                               std::span<double> r) {
+                                               const assembly::ColumnValues& x,
+                                               std::span<const double> b, std::span<double> r) {
   Residual result;
+  const std::size_t num_own = x.own.size();
+  const auto product_of = [&](std::size_t first, std::size_t count, int column)
+      __attribute__((always_inline)) {
+    const double* const row = values + first;
+    // the column tells it, those of all entries would have to be read
+    if (column >= 0 && count >= pack_lanes && index(column) + count <= num_own) {
+      return multiply(row, x.own.data() + column, count);
+    }
+    const int* const of_row = columns + first;
+    if (count > 0 && index(of_row[count - 1]) >= num_own) return multiply(row, of_row, x, count);
+    return multiply(row, of_row, x.own.data(), count);
+  };
   for (std::size_t row = 0; row < b.size(); ++row) {
     const std::size_t first = row_begin[row];
     const std::size_t count = row_begin[row + 1] - first;
     const int column = first_column[row];
     fetch(values + first + numbers_ahead, count * sizeof(double));
-    const RowSum sum = column >= 0 && count >= pack_lanes
-                           ? multiply(values + first, x + column, count)
-                           : multiply(values + first, columns + first, x, count);
+    const RowSum sum = product_of(first, count, column);
     const double rest = b[row] - sum.products;
     if (!std::isfinite(rest)) return {HUGE_VAL, 1.0};
     if (!r.empty()) r[row] = rest;
@@ -109,11 +131,11 @@ CULM_FOR_EACH_VECTOR_UNIT Residual residual_of(const std::size_t* row_begin, con
 
 }  // namespace
 
-Residual residual(const CrsMatrix& A, std::span<const int> first_column, std::span<const double> x,
-                  std::span<const double> b, std::span<double> r) {
+Residual residual(const CrsMatrix& A, std::span<const int> first_column,
+                  const assembly::ColumnValues& x, std::span<const double> b, std::span<double> r) {
   const auto matrix = A.getLocalMatrixHost();
   return residual_of(matrix.graph.row_map.data(), matrix.graph.entries.data(), first_column.data(),
-                     matrix.values.data(), x.data(), b, r);
+                     matrix.values.data(), x, b, r);
 }
 
 std::vector<int> first_columns(const CrsMatrix& A) {

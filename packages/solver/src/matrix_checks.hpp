@@ -1,6 +1,7 @@
 /// What every direct solver owes its callers: the residual of a solution, the weakest direction.
 #pragma once
 
+#include <culm/assembly/column_values.hpp>
 #include <culm/assembly/tpetra.hpp>
 
 #include <cmath>
@@ -17,10 +18,10 @@ struct Residual {
   double size = 0.0;     ///< largest sum of the absolute terms of a row
   double relative() const { return size > 0.0 ? largest / size : 0.0; }
 };
-/// Of this rank's rows. @param first_column of the rows, see assembly::first_columns @param x
-/// values of all local columns @param r b - A x, or empty
+/// Of this rank's rows. @param first_column of the rows, see assembly::first_columns @param r b -
+/// A x, or empty
 Residual residual(const assembly::CrsMatrix& A, std::span<const int> first_column,
-                  std::span<const double> x, std::span<const double> b, std::span<double> r);
+                  const assembly::ColumnValues& x, std::span<const double> b, std::span<double> r);
 /// Those of the rows of a matrix.
 std::vector<int> first_columns(const assembly::CrsMatrix& A);
 

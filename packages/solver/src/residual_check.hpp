@@ -1,6 +1,7 @@
 /// The residual of solutions whose rows are spread over ranks.
 #pragma once
 
+#include <culm/assembly/ghost_import.hpp>
 #include <culm/assembly/tpetra.hpp>
 #include <culm/parallel/comm.hpp>
 
@@ -30,8 +31,8 @@ class ResidualCheck {
   Teuchos::RCP<const assembly::CrsMatrix> matrix_;
   parallel::Comm comm_;
   std::vector<int> first_columns_;
-  assembly::Vector columns_;              // values of all local columns
-  std::optional<assembly::Vector> rest_;  // most solutions are never refined
+  std::optional<assembly::GhostImport> ghosts_;  // if there are several ranks
+  std::optional<assembly::Vector> rest_;         // most solutions are never refined
 };
 
 }  // namespace culm::solver

@@ -94,7 +94,7 @@ class SerialSolver final : public LinearSolver {
     std::ranges::copy(b, x.begin());
     apply_inverse(x);
     const auto check = [&](std::span<double> rest) {
-      return residual(*matrix_, first_columns_, x, b, rest).relative();
+      return residual(*matrix_, first_columns_, {x, {}}, b, rest).relative();
     };
     const double achieved = check({});
     if (achieved <= largest_residual_of_doubtful_pivots || !factors_.wants_refinement()) {

@@ -95,6 +95,7 @@ void Substructures::find_rows(const std::vector<bool>& is_interface) {
   const auto& rows = *matrix_->getRowMap();
   const auto& columns = *matrix_->getColMap();
   piece_.place.assign(is_interface.size(), -1);
+  piece_.rows.reserve(rows.getNodeNumElements());
   for (int row = 0; row < static_cast<int>(rows.getNodeNumElements()); ++row) {
     const std::size_t column = index(columns.getLocalElement(rows.getGlobalElement(row)));
     if (is_interface[column]) {

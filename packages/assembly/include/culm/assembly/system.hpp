@@ -1,6 +1,7 @@
 /// The discrete equations of a model on this rank: residual, tangent, and the update of the state.
 #pragma once
 
+#include <culm/assembly/column_values.hpp>
 #include <culm/assembly/layout.hpp>
 #include <culm/assembly/node_motions.hpp>
 #include <culm/base/ledger.hpp>
@@ -55,7 +56,7 @@ struct VelocityFit {
   int equation = -1;     ///< of the model, the one that was violated most; -1 if none was
 };
 
-class ColumnImport;
+class GhostImport;
 
 /// Owns residual and matrix; the model is borrowed.
 class System {
@@ -266,7 +267,7 @@ class System {
   std::vector<double> drive_speed(model::State& state, double probe);
   template <class Action>
   void each_moving_node(Action action) const;
-  std::span<const double> column_values(const Vector& increment);
+  ColumnValues column_values(const Vector& increment);
 
   model::Model& model_;
   parallel::Comm comm_;
@@ -288,8 +289,8 @@ class System {
   std::shared_ptr<const Matrix> matrix_view_;
   std::vector<int> first_columns_;
   Vector residual_;
-  std::unique_ptr<ColumnImport> column_import_;
-  std::vector<int> diagonal_;  ///< place of the diagonal entry of each owned row
+  std::unique_ptr<GhostImport> ghosts_;  ///< if there are several ranks
+  std::vector<int> diagonal_;            ///< place of the diagonal entry of each owned row
   std::vector<bool> is_force_row_;
   Sampler sampler_;
   bool carries_residuals_ = false;

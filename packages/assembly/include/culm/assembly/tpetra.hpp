@@ -10,9 +10,13 @@
 #include <Tpetra_Map.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include <memory>
+#include <optional>
 #include <span>
 
 namespace culm::assembly {
+
+class GhostImport;
 
 using Map = Tpetra::Map<>;
 using Import = Tpetra::Import<>;
@@ -32,8 +36,11 @@ struct Pattern::Stored {
 };
 struct Matrix::Stored {
   explicit Stored(Teuchos::RCP<CrsMatrix> filled);
+  ~Stored();
   Teuchos::RCP<CrsMatrix> matrix;  ///< fill is complete
   Rows rows, columns;
+  /// For products; found when there is the first, null where Tpetra's own serves.
+  std::optional<std::unique_ptr<GhostImport>> ghosts;
 };
 
 /// The ranks of a map; one alone does without MPI.

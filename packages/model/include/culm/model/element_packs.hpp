@@ -1,6 +1,7 @@
 /// Elements of a batch that are evaluated several at a time.
 #pragma once
 
+#include <culm/base/large_vector.hpp>
 #include <culm/math/fetch.hpp>
 #include <culm/mechanics/pack.hpp>
 #include <culm/model/batch.hpp>
@@ -213,9 +214,9 @@ class ElementPacks {
   }
 
   std::size_t count_ = 0;
-  std::vector<typename E::Pack> packs_;
+  LargeVector<typename E::Pack> packs_;
   std::vector<Lanes> nodes_;               // of the lanes of each pack
-  std::vector<Packs<num_values>> stress_;  // extrapolated, by pack
+  LargeVector<Packs<num_values>> stress_;  // extrapolated, by pack
   bool is_extrapolated_ = false;
   // of the pack that is evaluated
   PackMotion<N> motion_;
