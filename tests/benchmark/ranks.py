@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Speed and memory of a large slender model on several processes: the flexible pendulum. The time of a step is that
-of a long run less that of a short one; memory is the largest that a process ever had, and what of it were no pages of
-files, such as programs and libraries, which processes on one machine share. More elements than a beam may have are
-those of several pendula.
+of a long run less that of a short one; memory is the largest that a process ever had; what of it were no pages of
+files, such as programs and libraries; and these with its share of the pages that processes on one machine have
+together, so that the sum over all is what the machine gives. More elements than a beam may have are those of several
+pendula.
 
 usage: ranks.py CULM [--elements N] [--ranks 1 2 4] [--steps 4 24] [--repeats 2] [--copies]
 """
@@ -21,20 +22,26 @@ import xml.etree.ElementTree
 INPUTS = pathlib.Path(__file__).resolve().parent.parent.parent / "inputs"
 STEP = 5e-3  # s, of the deck
 LONGEST = 100000  # elements of a beam
-# prints what getrusage knows when the program has ended, and the most memory without files that was seen
+# prints what getrusage knows when the program has ended, and what was seen: the most memory without files, and the
+# share of the pages of files
 WATCH = """
 import os, resource, subprocess, sys, time
 program = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL)
-own = 0
+own = shared = looks = 0
+def numbers(file, names):
+    with open(f"/proc/{program.pid}/{file}") as lines:
+        return [int(line.split()[1]) for line in lines if line.startswith(names)]
 while program.poll() is None:
     try:
-        with open(f"/proc/{program.pid}/status") as status:
-            own = max([own] + [int(line.split()[1]) for line in status if line.startswith("RssAnon")])
+        own = max([own] + numbers("status", "RssAnon"))
+        if looks % 10 == 0:  # it takes long, and changes little
+            shared = sum(numbers("smaps_rollup", ("Pss_File", "Pss_Shmem"))) or shared
     except OSError:
         pass
+    looks += 1
     time.sleep(0.02)
 used = resource.getrusage(resource.RUSAGE_CHILDREN)
-print(f"used {used.ru_utime + used.ru_stime} {used.ru_maxrss} {own};", flush=True)
+print(f"used {used.ru_utime + used.ru_stime} {used.ru_maxrss} {own} {own + shared};", flush=True)
 sys.exit(program.returncode)
 """
 
@@ -65,8 +72,8 @@ def command(culm, folder, elements, steps):
 
 
 def run(programs):
-    """Wall time [s] of programs beside each other; of each process of theirs CPU time [s], memory, and memory without
-    files [MB]."""
+    """Wall time [s] of programs beside each other; of each process of theirs CPU time [s], memory, memory without
+    files, and memory with its share of what processes have together [MB]."""
     began = time.monotonic()
     running = [subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for words in programs]
     done = [(program.communicate(), program.returncode) for program in running]
@@ -76,8 +83,9 @@ def run(programs):
             sys.exit(errors)
     # processes of MPI may write into one line
     used = [[float(number) for number in words] for (out, _), _ in done
-            for words in re.findall(r"used (\S+) (\S+) (\S+);", out)]
-    return wall, [cpu for cpu, *_ in used], [size / 1024 for _, size, _ in used], [own / 1024 for *_, own in used]
+            for words in re.findall(r"used (\S+) (\S+) (\S+) (\S+);", out)]
+    cpu, *sizes = zip(*used)
+    return wall, cpu, *([size / 1024 for size in of_each] for of_each in sizes)
 
 
 def run_ranks(culm, ranks, elements, steps):
@@ -103,7 +111,7 @@ def main():
     options = parser.parse_args()
     culm = os.path.abspath(options.culm)
     start = run_copies if options.copies else run_ranks
-    print("elements  ranks  whole run [s]  a step [s]  CPU of a step and rank [s]  memory of each rank [MB], without files")
+    print("elements  ranks  whole run [s]  a step [s]  CPU of a step and rank [s]  memory of each rank [MB], without files, with its share")
     for elements in options.elements:
         for ranks in options.ranks:
             runs = {steps: [start(culm, ranks, elements, steps) for _ in range(options.repeats)]

@@ -41,6 +41,7 @@ void free_pages(void* memory, std::size_t bytes) noexcept { ::munmap(memory, byt
 
 // To be told that there are none changes nothing.
 void prefer_large_pages(void* memory, std::size_t bytes) noexcept {
+  if (bytes < worth_large_pages) return;
   const auto first = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t begin = up(first, page()), end = down(first + bytes, page());
   if (end > begin) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);

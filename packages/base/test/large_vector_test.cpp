@@ -44,11 +44,11 @@ TEST(LargeVector, GivesItsMemoryBack) {
 }
 
 TEST(LargeVector, MemoryOfOthersMayBeOfAnySize) {
-  std::vector<double> mine(1000, 2.0);
-  for (const std::size_t count : {0u, 1u, 1000u}) {
+  std::vector<double> mine(several_pages, 2.0);
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, several_pages}) {
     prefer_large_pages(mine.data(), count * sizeof(double));
   }
-  EXPECT_EQ(mine, std::vector<double>(1000, 2.0));
+  EXPECT_EQ(mine, std::vector<double>(several_pages, 2.0));
 }
 
 }  // namespace

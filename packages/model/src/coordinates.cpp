@@ -55,8 +55,7 @@ Coordinates::Memory Coordinates::make(std::size_t room) {
   void* const found = ::mmap(nullptr, bytes(room), PROT_READ | PROT_WRITE,
                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (found == MAP_FAILED) throw std::bad_alloc();
-  // a huge page would be had for every number in two megabytes
-  ::madvise(found, bytes(room), MADV_NOHUGEPAGE);
+  ::madvise(found, bytes(room), are_all_expected ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
   return Memory(static_cast<double*>(found), Free{room});
 }
 

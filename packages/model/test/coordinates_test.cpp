@@ -60,14 +60,17 @@ TEST(Coordinates, TakeMemoryForWhatIsWrittenOnly) {
 }
 
 TEST(Coordinates, GiveBackWhatIsReleased) {
-  const double before = resident_megabytes();
-  Coordinates q(large, 1.0);
-  EXPECT_GT(resident_megabytes() - before, 90.0);
-  q.release(100, large - 100);
-  EXPECT_LT(resident_megabytes() - before, 10.0);
-  EXPECT_EQ(q[99], 1.0);
-  EXPECT_TRUE(q.is_zero(100, large - 100));
-  EXPECT_EQ(q[large - 100], 1.0);
+  for (const bool all : {true, false}) {
+    Coordinates::expect_all(all);
+    const double before = resident_megabytes();
+    Coordinates q(large, 1.0);
+    EXPECT_GT(resident_megabytes() - before, 90.0);
+    q.release(100, large - 100);
+    EXPECT_LT(resident_megabytes() - before, 10.0);
+    EXPECT_EQ(q[99], 1.0);
+    EXPECT_TRUE(q.is_zero(100, large - 100));
+    EXPECT_EQ(q[large - 100], 1.0);
+  }
 }
 
 TEST(Coordinates, GrowWithZerosAndByWhatIsAppended) {

@@ -1,3 +1,5 @@
+#include <culm/model/coordinates.hpp>
+#include <culm/parallel/comm.hpp>
 #include <culm/parallel/mpi_session.hpp>
 #include <culm/simulation/session.hpp>
 
@@ -23,6 +25,7 @@ Session::Session(int& /*argc*/, char**& argv) {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 64 << 20);
   scope_ = std::make_unique<Scope>(argv[0]);
+  model::Coordinates::expect_all(parallel::Comm().size() == 1);
 }
 
 Session::~Session() = default;

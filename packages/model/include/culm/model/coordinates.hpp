@@ -19,6 +19,10 @@ class Coordinates {
   /// Numbers that are left out together, as many as the smallest page of memory holds.
   static constexpr std::size_t page = 512;
 
+  /// Of what is made from then on in this process: whether something is written to all pages, which
+  /// large pages of memory are for. Otherwise, as at first, a large page would be had for a number.
+  static void expect_all(bool all) { are_all_expected = all; }
+
   Coordinates() = default;
   explicit Coordinates(std::size_t size, double value = 0.0);
   Coordinates(const double* first, const double* last);
@@ -67,6 +71,8 @@ class Coordinates {
   };
   using Memory = std::unique_ptr<double[], Free>;
   static Memory make(std::size_t room);
+
+  inline static bool are_all_expected = false;
 
   Memory numbers_;
   std::size_t size_ = 0;
