@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
 
 namespace culm::assembly {
 namespace {
@@ -51,11 +52,11 @@ class UnknownSizes {
   UnknownSizes(const System& system, const EvaluatedPoint& point)
       : system_(system), point_(point), levers_(levers_of(system.model().nodes())) {}
 
-  // Of all local columns.
-  std::vector<double> all() const {
-    std::vector<double> sizes(system_.layout().columns().size());
+  // Of all local columns, each of which is of a block.
+  std::unique_ptr<double[]> all() const {
+    auto sizes = std::make_unique_for_overwrite<double[]>(system_.layout().columns().size());
     for (const Layout::LocalBlock& local : system_.layout().local_blocks()) {
-      put(local, sizes.data() + local.first_column);
+      put(local, sizes.get() + local.first_column);
     }
     return sizes;
   }
@@ -155,7 +156,7 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
   }
   if (worst_row >= 0) judge(worst_row, [&](auto k) { return size_of.of(column_of[k]); });
   if (share <= most && worst_found > limit) {
-    const std::vector<double> sizes = size_of.all();
+    const std::unique_ptr<double[]> sizes = size_of.all();
     for (int row = 0; row < num_rows && share <= most; ++row) {
       const int column = first_column[index(row)];
       if (column < 0) {
@@ -175,7 +176,7 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
 }
 
 double rounding_energy(const System& system, const EvaluatedPoint& point) {
-  std::vector<double> sizes = UnknownSizes(system, point).all();
+  const std::unique_ptr<double[]> sizes = UnknownSizes(system, point).all();
   const auto each_block = [&](auto action) {
     for (const Layout::LocalBlock& local : system.layout().local_blocks()) {
       const model::Block block = system.model().unknowns().block(local.block);
@@ -184,7 +185,7 @@ double rounding_energy(const System& system, const EvaluatedPoint& point) {
   };
   each_block([&](const Layout::LocalBlock& local, const model::Block& block, bool is_node) {
     if (is_node) return;
-    std::fill_n(sizes.begin() + local.first_column, block.shape.active, 0.0);
+    std::fill_n(sizes.get() + local.first_column, block.shape.active, 0.0);
   });
   const Matrix& matrix = *system.matrix();
   const auto values = matrix.values();

@@ -53,7 +53,8 @@ NewtonGroup::NewtonGroup(const NewtonGroup& other, NOX::CopyType type)
 }
 
 void NewtonGroup::start() {
-  next_ = problem_->state->next;
+  next_.swap(problem_->state->next);
+  is_in_state_ = false;
   multipliers_ = problem_->state->multipliers;
   own_ = problem_->state->own;
   level_ = problem_->state->time;
@@ -64,13 +65,18 @@ void NewtonGroup::start() {
 }
 
 void NewtonGroup::finish() {
-  problem_->state->next.swap(next_);  // the next start takes it anew
+  problem_->state->next.swap(next_);
   problem_->state->multipliers = multipliers_;
   problem_->state->own = own_;
   problem_->state->time = level_;
 }
 
+void NewtonGroup::give_up() {
+  if (!is_in_state_) swap_with_state();
+}
+
 void NewtonGroup::swap_with_state() {
+  is_in_state_ = !is_in_state_;
   problem_->state->next.swap(next_);
   problem_->state->multipliers.swap(multipliers_);
   problem_->state->own.swap(own_);

@@ -60,10 +60,13 @@ class NewtonGroup final : public NOX::Abstract::Group {
   NewtonGroup(const NewtonGroup& other, NOX::CopyType type);
   NewtonGroup(const NewtonGroup&) = delete;
 
-  /// Takes the start of a step from the problem's state.
+  /// Takes the start of a step from the problem's state, which has no coordinates at its end until
+  /// finish() or give_up().
   void start();
   /// Gives the trial point to the problem's state.
   void finish();
+  /// The same after something was thrown, wherever that was.
+  void give_up();
   const assembly::Evaluation& evaluation() const { return evaluation_; }
   /// Whether rounding can hold force rows above a limit at this point, which was evaluated last.
   assembly::RoundingCheck check_rounding(double limit, double most) const;
@@ -120,6 +123,7 @@ class NewtonGroup final : public NOX::Abstract::Group {
   NewtonVector f_;  ///< with full steps the residual of the system, else a copy
   NewtonVector newton_;
   bool shares_residual_ = false;
+  bool is_in_state_ = false;  ///< the trial point stands in the problem's state
   bool has_residual_ = false;
   bool has_tangent_ = false;
   bool tangent_wanted_ = false;

@@ -237,14 +237,17 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   nox.group->start();
 
   NOX::StatusTest::StatusType status = NOX::StatusTest::Failed;
-  // NOX throws when the residual fails at the start of a step; that is an outcome, not an error
-  if (nox.group->computeF() == NOX::Abstract::Group::Ok) {
-    nox.solver->reset(nox.group->getX());
-    try {
+  try {
+    // NOX throws when the residual fails at the start of a step; that is an outcome, not an error
+    if (nox.group->computeF() == NOX::Abstract::Group::Ok) {
+      nox.solver->reset(nox.group->getX());
       status = nox.solver->solve();
-    } catch (const char*) {
-      // how NOX ends when there is no Newton direction; find_end knows the reason
     }
+  } catch (const char*) {
+    // how NOX ends when there is no Newton direction; find_end knows the reason
+  } catch (...) {
+    nox.group->give_up();
+    throw;
   }
   StepOutcome outcome;
   outcome.end = nox.find_end(status, *nox.group);
