@@ -1,3 +1,4 @@
+#include <culm/base/error.hpp>
 #include <culm/solver/newton_solver.hpp>
 
 #include <culm_kit/chain_model.hpp>
@@ -187,6 +188,40 @@ TEST(NewtonSolver, RedundantConstraintsEndAStepWithoutAnException) {
   for (const char* solver : {"KLU2", "MUMPS"}) {
     CarriedChain chain(model::Form::multipliers, 0.1, NewtonSettings{}, 2, solver);
     EXPECT_EQ(chain.solve().end, StepEnd::singular) << solver;
+  }
+}
+
+// One that ends with an error instead of factors, after so many of them.
+class EndingSolver final : public LinearSolver {
+ public:
+  EndingSolver(LinearSolver& solver, int factorisations) : solver_(solver), left_(factorisations) {}
+
+  std::string name() const override { return solver_.name(); }
+  bool factor() override {
+    if (left_-- == 0) throw NumericalError("no memory for factors");
+    return solver_.factor();
+  }
+  LinearResidual solve(const Vector& b, Vector& x) override { return solver_.solve(b, x); }
+  Determinant determinant() override { return solver_.determinant(); }
+  double weakest_direction(Vector& v) override { return solver_.weakest_direction(v); }
+
+ private:
+  LinearSolver& solver_;
+  int left_;
+};
+
+TEST(NewtonSolver, ErrorsLeaveTheStateWithTheLastTrial) {
+  for (const int factorisations : {0, 1}) {
+    CarriedChain chain(model::Form::null_space, 0.5, NewtonSettings{});
+    EndingSolver ending(*chain.linear, factorisations);
+    NewtonSolver newton(*chain.system, ending, NewtonSettings{}, chain.ledger);
+    const model::Coordinates start = chain.state.next;
+    EXPECT_THROW(newton.solve(chain.state, Stencil::statics()), NumericalError);
+    ASSERT_EQ(chain.state.next.size(), start.size());
+    EXPECT_EQ(std::ranges::equal(chain.state.next, start), factorisations == 0);
+    // and nothing of it stays
+    chain.state.next = start;
+    EXPECT_TRUE(chain.solve().converged());
   }
 }
 
