@@ -65,13 +65,6 @@ void NewtonGroup::start() {
 }
 
 void NewtonGroup::finish() {
-  problem_->state->next.swap(next_);
-  problem_->state->multipliers = multipliers_;
-  problem_->state->own = own_;
-  problem_->state->time = level_;
-}
-
-void NewtonGroup::give_up() {
   if (!is_in_state_) swap_with_state();
 }
 

@@ -61,12 +61,10 @@ class NewtonGroup final : public NOX::Abstract::Group {
   NewtonGroup(const NewtonGroup&) = delete;
 
   /// Takes the start of a step from the problem's state, which has no coordinates at its end until
-  /// finish() or give_up().
+  /// finish().
   void start();
-  /// Gives the trial point to the problem's state.
+  /// Gives the trial point to the problem's state, also where something was thrown meanwhile.
   void finish();
-  /// The same after something was thrown, wherever that was.
-  void give_up();
   const assembly::Evaluation& evaluation() const { return evaluation_; }
   /// Whether rounding can hold force rows above a limit at this point, which was evaluated last.
   assembly::RoundingCheck check_rounding(double limit, double most) const;

@@ -246,9 +246,10 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   } catch (const char*) {
     // how NOX ends when there is no Newton direction; find_end knows the reason
   } catch (...) {
-    nox.group->give_up();
+    nox.group->finish();
     throw;
   }
+  nox.group->finish();
   StepOutcome outcome;
   outcome.end = nox.find_end(status, *nox.group);
   outcome.history = nox.balance->history();
@@ -261,7 +262,6 @@ StepOutcome NewtonSolver::solve(model::State& state, const Stencil& stencil,
   }
   if (!outcome.converged()) nox.problem->has_factors = false;
   nox.problem->expected_iterations = outcome.converged() ? outcome.iterations : 0;
-  nox.group->finish();
   return outcome;
 }
 
