@@ -41,7 +41,7 @@ void sum_up(std::vector<model::StepWork>& works, std::array<double, 2>& pushed,
 }  // namespace
 
 Books::Books(const assembly::System& system, bool with_momenta)
-    : system_(system), batches_(system.model().batches()) {
+    : system_(system), with_momenta_(with_momenta), batches_(system.model().batches()) {
   if (!with_momenta) {
     std::erase_if(batches_, [](const model::Batch* batch) {
       const auto* dead = dynamic_cast<const model::DeadWeight*>(batch);
@@ -60,19 +60,20 @@ Books::Books(const assembly::System& system, bool with_momenta)
 }
 
 model::StepWork Books::add(const model::State& state, const Stencil& stencil) {
-  std::vector<model::StepWork> step(works_.size());
+  step_.assign(works_.size(), {});
   pushed_ = {0.0, 0.0};
   for (std::size_t i = 0; i < batches_.size(); ++i) {
     const model::StepWork work = batches_[i]->step_work(state, stencil);
-    step[account_of_[i]] += work;
+    step_[account_of_[i]] += work;
+    if (!with_momenta_) continue;
     pushed_[0] += work.force.norm();
     pushed_[1] += work.moment.norm();
   }
-  sum_up(step, pushed_, system_.comm());
+  sum_up(step_, pushed_, system_.comm());
   model::StepWork total;
-  for (std::size_t i = 0; i < step.size(); ++i) {
-    works_[i] += step[i];
-    total += step[i];
+  for (std::size_t i = 0; i < step_.size(); ++i) {
+    works_[i] += step_[i];
+    total += step_[i];
   }
   return total;
 }

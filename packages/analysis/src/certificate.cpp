@@ -43,8 +43,9 @@ Certificate::Certificate(const assembly::System& system, bool promises, bool sho
     : system_(system), promises_(promises), shows_work_(shows_work), books_(system, is_free()) {}
 
 void Certificate::start(const model::State& state) {
-  first_momentum_ = momentum_ = system_.momentum(state.next, state.velocity);
-  first_ = last_ = system_.energies(state.next, momentum_);
+  look_at(state);
+  first_momentum_ = momentum_;
+  first_ = last_;
   largest_kinetic_ = first_.kinetic;
   largest_strain_ = first_.strain;
   largest_amount_ = first_.amount;
@@ -97,17 +98,25 @@ void Certificate::add_blow(double work) {
   largest_work_ = std::max(largest_work_, std::abs(work_.external) + std::abs(work_.drives));
 }
 
-void Certificate::compare(const model::State& state) {
-  if (steps_ % interval == 0) measure(state);
+// What the model holds; of what is held itself, momenta say nothing.
+void Certificate::look_at(const model::State& state) {
+  momentum_ = {};
+  if (is_free()) {
+    momentum_ = system_.momentum(state.next, state.velocity);
+  } else {
+    momentum_.kinetic_energy = system_.kinetic_energy(state.velocity);
+  }
+  last_ = system_.energies(state.next, momentum_.kinetic_energy);
 }
+
+bool Certificate::is_due() const { return steps_ % interval == 0; }
 
 void Certificate::compare_last(const model::State& state) {
-  if (steps_ % interval != 0) measure(state);
+  if (!is_due()) compare(state);
 }
 
-void Certificate::measure(const model::State& state) {
-  momentum_ = system_.momentum(state.next, state.velocity);
-  last_ = system_.energies(state.next, momentum_);
+void Certificate::compare(const model::State& state) {
+  look_at(state);
   largest_kinetic_ = std::max(largest_kinetic_, last_.kinetic);
   largest_strain_ = std::max(largest_strain_, last_.strain);
   largest_amount_ = std::max(largest_amount_, last_.amount);
@@ -134,7 +143,7 @@ void Certificate::finish(double change, double velocity) {
   hidden_violation_ = relative(change, velocity);
 }
 
-// The places of all numbers that add_work() and measure() build upon.
+// The places of all numbers that add_work() and compare() build upon.
 template <class Self>
 auto Certificate::memory(Self& self) {
   std::vector<decltype(&self.energy_drift_)> places;

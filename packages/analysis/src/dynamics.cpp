@@ -225,6 +225,7 @@ StepReport Dynamics::do_attempt(double end) {
   }
   refuse_mirrored(context(), state, report.outcome);
   refuse_missed_turns(context(), state, stencil_, report.outcome);
+  refuse_turns_apart(context(), state, control_.turn(), report.outcome);
   if (blow_ && report.outcome.converged()) show_blow(report.increment);
   return report;
 }
@@ -250,6 +251,7 @@ void Dynamics::do_accept(const StepReport& report) {
   is_first_ = false;
   warn_of_short_step(taken);
   system().accept(state);
+  if (!certificate_.is_due()) return;
   const Ledger::Scope scope(context().ledger, certificate_effect_);
   certificate_.compare(state);
 }

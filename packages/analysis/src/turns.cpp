@@ -41,21 +41,20 @@ bool is_pair(const model::Constraint& c, const model::NodeTable& nodes) {
                              [&](int node) { return nodes.kind(node) == NodeKind::node12; });
 }
 
-// Each node turns by what StepControl allows, but two may do so against each other; not where each
-// turns by less than half of it.
 bool turns_apart(const model::Constraint& c, const model::State& state) {
-  static const double least_trace = 1.0 + 2.0 * std::cos(0.5 * StepControl::most_turn);
-  const bool may_be = std::ranges::any_of(c.nodes, [&](int node) {
-    return directors(state.prev, node).cwiseProduct(directors(state.next, node)).sum() <
-           least_trace;
-  });
-  if (!may_be) return false;
   return (turn_of(state, c.nodes[1]) - turn_of(state, c.nodes[0])).norm() > StepControl::most_turn;
 }
 
 // Each constraint is on some rank.
 bool is_here(const model::Constraint& c, const assembly::System& system) {
   return std::ranges::all_of(c.nodes, [&](int node) { return system.needs(node); });
+}
+
+// Refuses a step on all ranks that one of them refuses.
+void refuse_together(const assembly::System& system, bool is_refused,
+                     solver::StepOutcome& outcome) {
+  if (system.comm().max(is_refused ? 1 : 0) == 0) return;
+  outcome.end = solver::StepEnd::turned_too_far;
 }
 
 }  // namespace
@@ -74,19 +73,24 @@ void refuse_missed_turns(Context& context, const model::State& state, const Sten
                          solver::StepOutcome& outcome) {
   const assembly::System& system = context.system;
   const auto& constraints = system.model().constraints();
-  const auto may_be_counted = [&](const model::Constraint& c) {
-    return stencil.step > 0.0 && is_pair(c, system.model().nodes());
-  };
-  const auto is_concerned = [&](const model::Constraint& c) { return c.turn || may_be_counted(c); };
-  if (!outcome.converged() || std::ranges::none_of(constraints, is_concerned)) return;
+  const auto is_prescribed = [](const model::Constraint& c) { return c.turn.has_value(); };
+  if (!outcome.converged() || std::ranges::none_of(constraints, is_prescribed)) return;
   const bool is_refused = std::ranges::any_of(constraints, [&](const model::Constraint& c) {
-    return is_concerned(c) && is_here(c, system) &&
-           (leads_too_far(c, state, stencil) || is_missed(c, state) ||
-            (may_be_counted(c) && turns_apart(c, state)));
+    return is_prescribed(c) && is_here(c, system) &&
+           (leads_too_far(c, state, stencil) || is_missed(c, state));
   });
-  if (system.comm().max(is_refused ? 1 : 0) != 0) {
-    outcome.end = solver::StepEnd::turned_too_far;
-  }
+  refuse_together(system, is_refused, outcome);
+}
+
+void refuse_turns_apart(Context& context, const model::State& state, double largest_turn,
+                        solver::StepOutcome& outcome) {
+  if (!outcome.converged() || 2.0 * largest_turn <= StepControl::most_turn) return;
+  const assembly::System& system = context.system;
+  const bool is_refused =
+      std::ranges::any_of(system.model().constraints(), [&](const model::Constraint& c) {
+        return is_pair(c, system.model().nodes()) && is_here(c, system) && turns_apart(c, state);
+      });
+  refuse_together(system, is_refused, outcome);
 }
 
 }  // namespace culm::analysis

@@ -19,10 +19,16 @@ const model::Constraint* find_too_far(const assembly::System& system, const mode
 
 /// Refuses a converged step in which a prescribed turn leads too far, or which met its equations
 /// half a turn away: no state counts turns, and elements that were not taken along would be left as
-/// they are. In motions refuses as well what turns two joined nodes against each other by more than
-/// one may turn, because springs and histories count the angle of a joint by its change.
-/// Collective.
+/// they are. Collective.
 void refuse_missed_turns(Context& context, const model::State& state, const Stencil& stencil,
                          solver::StepOutcome& outcome);
+
+/// Refuses a converged step of a motion that turns two joined nodes against each other by more than
+/// one may turn, because springs and histories count the angle of a joint by its change.
+/// Collective.
+/// @param largest_turn  of a node in the step [rad]: two that turn by half of what one may are not
+///                      looked at
+void refuse_turns_apart(Context& context, const model::State& state, double largest_turn,
+                        solver::StepOutcome& outcome);
 
 }  // namespace culm::analysis

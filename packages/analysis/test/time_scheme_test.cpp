@@ -9,7 +9,7 @@ namespace {
 
 double energy(const Motion& motion) {
   const model::State& s = motion.state;
-  return motion.system->energies(s.next, motion.system->momentum(s.next, s.velocity)).total();
+  return motion.system->energies(s.next, motion.system->kinetic_energy(s.velocity)).total();
 }
 
 // largest difference of a coordinate at the end of a time

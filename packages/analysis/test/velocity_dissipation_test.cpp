@@ -54,7 +54,7 @@ class Damped : public Motion {
     return taken;
   }
   model::Momentum momentum() const { return system->momentum(state.next, state.velocity); }
-  double energy() const { return system->energies(state.next, momentum()).total(); }
+  double energy() const { return system->energies(state.next, momentum().kinetic_energy).total(); }
 };
 
 TEST(VelocityDissipation, TakesTheEnergyItBooksAndKeepsMomenta) {

@@ -50,6 +50,7 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
       first_columns_(assembly::first_columns(matrix_->row_begin(), matrix_->column_of())),
       residual_(layout_.rows()) {
   const model::UnknownTable& unknowns = model.unknowns();
+  std::vector<Ledger::Id> effects;
   for (const model::Batch* batch : batches_) {
     Ledger::Entry entry;
     entry.name = batch->effect().title();
@@ -57,9 +58,13 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
     const long long others = unknowns_beside_nodes(*batch, unknowns);
     if (others > 0) entry.unknowns = others;
     if (batch->has_tangent()) entry.entries_per_iteration = entries_of(*batch, unknowns);
-    effects_.push_back(ledger.add(entry));
+    effects.push_back(ledger.add(entry));
   }
+  for (std::optional<Ledger::Round>& round : evaluations_) round.emplace(ledger, effects);
+  extrapolation_.emplace(ledger, effects);
   for (const auto& batch : model.element_batches()) {
+    const auto* source = dynamic_cast<const model::MassSource*>(batch.get());
+    if (source != nullptr) masses_.push_back(source);
     if (batch->depends_on_time()) driven_.push_back(batch.get());
   }
   driven_elements_ = driven_.size();
@@ -306,19 +311,14 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
   }
   if (watches_tangents_ && want != Want::residual) tangent_point_ = state.next;
   Verdict verdict = Verdict::ok;
-  std::optional<Ledger::Scope> scope;
   parallel::SharedFailure failure;
   failure.watch([&] {
+    Ledger::Round::Lap lap(*evaluations_[static_cast<std::size_t>(want)]);
     for (std::size_t b = 0; b < batches_.size(); ++b) {
-      if (scope) {
-        scope->pass_to(effects_[b]);
-      } else {
-        scope.emplace(ledger_, effects_[b]);
-      }
+      lap.pass_to(b);
       verdict = worse(verdict, batches_[b]->assemble(state, stencil, want, target));
     }
   });
-  scope.reset();
   target.clear_rest();
   const double carried = stencil.inertia != 0.0 ? 1.0 / stencil.step : held_share_;
   if (carried_ && carried != 0.0) {
@@ -432,8 +432,9 @@ const model::Coordinates& System::linear_motion(const model::State& state, const
 void System::extrapolate(const model::State& state, const Stencil& stencil, const Vector& increment,
                          double factor) {
   const model::Coordinates& motion = linear_motion(state, increment, factor);
+  Ledger::Round::Lap lap(*extrapolation_);
   for (std::size_t b = 0; b < batches_.size(); ++b) {
-    const Ledger::Scope scope(ledger_, effects_[b]);
+    lap.pass_to(b);
     batches_[b]->extrapolate(state, stencil, motion);
   }
 }

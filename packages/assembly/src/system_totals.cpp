@@ -61,7 +61,7 @@ double System::strain_energy(const model::Coordinates& q) const {
   return comm_.sum(energy);
 }
 
-Energies System::energies(const model::Coordinates& q, const model::Momentum& momentum) const {
+Energies System::energies(const model::Coordinates& q, double kinetic) const {
   double strain = 0.0, potential = 0.0, amount = 0.0;
   const auto add = [&](const model::Batch& batch, double& sum) {
     const double energy = batch.stored_energy(q);
@@ -72,17 +72,19 @@ Energies System::energies(const model::Coordinates& q, const model::Momentum& mo
   for (const auto& load : model_.loads()) add(*load, potential);
   std::array<double, 3> sums = {strain, potential, amount};
   comm_.sum(sums);
-  return {momentum.kinetic_energy, sums[0], sums[1], std::abs(momentum.kinetic_energy) + sums[2]};
+  return {kinetic, sums[0], sums[1], std::abs(kinetic) + sums[2]};
+}
+
+double System::kinetic_energy(const model::Coordinates& velocity) const {
+  double sum = 0.0;
+  for (const model::MassSource* source : masses_) sum += source->kinetic_energy(velocity);
+  return comm_.sum(sum);
 }
 
 model::Momentum System::momentum(const model::Coordinates& q,
                                  const model::Coordinates& velocity) const {
   model::Momentum total;
-  for (const auto& batch : model_.element_batches()) {
-    if (const auto* source = dynamic_cast<const model::MassSource*>(batch.get())) {
-      source->add_momentum(q, velocity, total);
-    }
-  }
+  for (const model::MassSource* source : masses_) source->add_momentum(q, velocity, total);
   Vec<7> sums;
   sums << total.kinetic_energy, total.linear, total.angular;
   comm_.sum(std::span(sums.data(), 7));

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace culm {
 namespace {
@@ -71,6 +74,59 @@ TEST(Ledger, AScopePassesToAnotherEntry) {
   EXPECT_EQ(ledger.entry(second).calls, 1);
   EXPECT_EQ(ledger.entry(first).seconds, 2.0);
   EXPECT_EQ(ledger.entry(second).seconds, 5.0);
+}
+
+struct Turns {
+  Ledger ledger = Ledger(now);
+  std::vector<Ledger::Id> effects = {ledger.add("Beam"), ledger.add("Gravity")};
+  // an effect comes twice, as two batches of one kind do
+  std::optional<Ledger::Round> round = std::optional<Ledger::Round>(
+      std::in_place, ledger, std::vector{effects[0], effects[1], effects[0]});
+
+  void lap(double beam, double gravity, double more_of_the_beam) {
+    Ledger::Round::Lap lap(*round);
+    lap.pass_to(0);
+    wait(beam);
+    lap.pass_to(1);
+    wait(gravity);
+    lap.pass_to(2);
+    wait(more_of_the_beam);
+  }
+  double beam() const { return ledger.entry(effects[0]).seconds; }
+  double gravity() const { return ledger.entry(effects[1]).seconds; }
+};
+
+TEST(Ledger, LongLapsAreTimedEffectByEffect) {
+  Turns turns;
+  for (int i = 0; i < 100; ++i) turns.lap(1.0, i, 3.0);
+  EXPECT_EQ(turns.beam(), 400.0);
+  EXPECT_EQ(turns.gravity(), 4950.0);
+  EXPECT_EQ(turns.ledger.entry(turns.effects[0]).calls, 200);
+  EXPECT_EQ(turns.ledger.entry(turns.effects[1]).calls, 100);
+}
+
+// Nothing is lost; a few laps are looked at closely, and who is slow now and then has its part.
+TEST(Ledger, ShortLapsAreSharedOut) {
+  Turns turns;
+  constexpr int laps = 100000;
+  double gravity = 0.0;
+  for (int i = 0; i < laps; ++i) {
+    const double now_and_then = i % 20 == 0 ? 20e-7 : 1e-7;
+    gravity += now_and_then;
+    turns.lap(2e-7, now_and_then, 1e-7);
+  }
+  turns.round.reset();
+  EXPECT_NEAR(turns.beam() + turns.gravity(), 3e-7 * laps + gravity, 1e-9 * laps * 1e-7);
+  EXPECT_NEAR(turns.gravity() / gravity, 1.0, 0.05);
+  EXPECT_EQ(turns.ledger.entry(turns.effects[0]).calls, 2 * laps);
+  EXPECT_EQ(turns.ledger.entry(turns.effects[1]).calls, laps);
+}
+
+TEST(Ledger, ALapOfNothingTakesNothing) {
+  Ledger ledger(now);
+  Ledger::Round round(ledger, {});
+  { const Ledger::Round::Lap lap(round); }
+  EXPECT_EQ(ledger.seconds(), 0.0);
 }
 
 TEST(Ledger, ScopesMayRegisterEffects) {

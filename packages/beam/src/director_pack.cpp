@@ -70,15 +70,20 @@ CULM_INLINE void add_strain_increment(const PackFrame<Order>& q, const PackFrame
   }
 }
 
-// e += the mean of the strains at both ends of the step that the stencil asks for
+// e += the mean of the strains at both ends of the step that the stencil asks for; `change`, where
+// wanted, += what they change by.
 template <int Order>
 CULM_INLINE void add_mean_strain(const typename DirectorPack<Order>::Point& p,
                                  const PackMotion<Order + 1>& motion, const PackFrame<Order>& next,
-                                 const Stencil& stencil, Pack* e) {
+                                 const Stencil& stencil, Pack* e, Pack* change = nullptr) {
   const double weight = stencil.theta_strain;
-  add_strain<Order>(p, next, weight, e);
-  if (weight != 1.0) {
-    add_strain<Order>(p, PackFrame<Order>(p, motion.prev.data()), 1.0 - weight, e);
+  if (weight == 1.0 && change == nullptr) return add_strain<Order>(p, next, weight, e);
+  Pack at_end[6] = {}, at_start[6] = {};
+  add_strain<Order>(p, next, 1.0, at_end);
+  add_strain<Order>(p, PackFrame<Order>(p, motion.prev.data()), 1.0, at_start);
+  for (int i = 0; i < 6; ++i) {
+    e[i] += weight * at_end[i] + (1.0 - weight) * at_start[i];
+    if (change != nullptr) change[i] += at_end[i] - at_start[i];
   }
 }
 
@@ -101,6 +106,13 @@ CULM_INLINE void compute_stress(const Pack* C, const Pack* e, Pack* stress) {
     stress[i] = C[6 * i] * e[0];
     for (int j = 1; j < 6; ++j) stress[i] += C[6 * i + j] * e[j];
   }
+}
+
+// energy += 1/2 e . C e
+CULM_INLINE void add_energy(const Pack* C, const Pack* e, Pack& energy) {
+  Pack stress[6];
+  compute_stress(C, e, stress);
+  for (int i = 0; i < 6; ++i) energy += 0.5 * e[i] * stress[i];
 }
 
 // force += B^T S on slots: on x_a  N'_a Σ S_i d_i,  on d_i,a  N_a S_i x' + S_3+k h_j - S_3+j h_k
@@ -274,15 +286,18 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
   Pack force[12 * N] = {};          // on slots
   Pack tangent_force[12 * N] = {};  // that the tangent belongs to
   Pack A[16 * N * N] = {};
+  const bool tells = tells_change(stencil, with_tangent);
+  Pack change_energy = {};
   if (with_tangent) sum.tangent = {};
   for (std::size_t g = 0; g < Order; ++g) {
     const auto& p = geometry.points[g];
     const PackFrame<Order> next_frame(p, motion.next.data());
     const PackFrame<Order> mid_frame(p, mid);
-    Pack C[36], e[6] = {}, stress[6];
-    add_mean_strain<Order>(p, motion, next_frame, stencil, e);
+    Pack C[36], e[6] = {}, change[6] = {}, stress[6];
+    add_mean_strain<Order>(p, motion, next_frame, stencil, e, tells ? change : nullptr);
     unpack_stiffness<Order>(p.length, sections.stiffness[g], C);
     compute_stress(C, e, stress);
+    if (tells) add_energy(C, change, change_energy);
     add_force<Order>(p, mid_frame, stress, force);
     if (!with_tangent) continue;
     const Pack* S = stress;
@@ -296,6 +311,7 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
     compute_rows<Order>(p, mid_frame, mid, R_mid);
     add_product<Order>(C, weight, R_mid, R_next, sum.tangent.data());
   }
+  if (tells) sum.change_energy = change_energy;
   if (with_tangent && predicted == nullptr) {
     for (int c = 0; c < 12 * N; ++c) tangent_force[c] = force[c];
   }
@@ -353,33 +369,51 @@ CULM_FOR_EACH_VECTOR_UNIT void find_strain_energy(
     const typename DirectorPack<Order>::Geometry& geometry,
     const typename DirectorPack<Order>::Sections& sections, const Pack* slots, const Pack* less,
     Pack* energy) noexcept {
-  Pack twice = {};
+  *energy = Pack{};
   for (std::size_t g = 0; g < Order; ++g) {
     const auto& p = geometry.points[g];
-    Pack C[36], e[6] = {}, stress[6];
+    Pack C[36], e[6] = {};
     add_strain<Order>(p, PackFrame<Order>(p, slots), 1.0, e);
     if (less != nullptr) add_strain<Order>(p, PackFrame<Order>(p, less), -1.0, e);
     unpack_stiffness<Order>(p.length, sections.stiffness[g], C);
-    compute_stress(C, e, stress);
-    for (int i = 0; i < 6; ++i) twice += e[i] * stress[i];
+    add_energy(C, e, *energy);
   }
-  *energy = 0.5 * twice;
 }
 
-// T = 1/2 v . M v, L = sum of M v over positions, J = sum_s q_s x (M v)_s
+// M v
+template <int Order>
+CULM_INLINE void find_momenta(const typename DirectorPack<Order>::Geometry& geometry,
+                              const typename DirectorPack<Order>::Sections& sections, const Pack* v,
+                              Pack* p) {
+  typename DirectorPack<Order>::Mass mass;
+  integrate_mass<Order>(geometry, sections, mass);
+  for (int c = 0; c < 12 * (Order + 1); ++c) p[c] = Pack{};
+  for_masses<Order>(
+      mass.data(), [&](int s, int t, const Pack& m) __attribute__((always_inline)) {
+        for (int c = 0; c < 3; ++c) p[3 * s + c] += m * v[3 * t + c];
+      });
+}
+
+// T = 1/2 v . M v
+template <int Order>
+CULM_FOR_EACH_VECTOR_UNIT void find_kinetic_energy(
+    const typename DirectorPack<Order>::Geometry& geometry,
+    const typename DirectorPack<Order>::Sections& sections, const Pack* v, Pack* energy) noexcept {
+  Pack p[12 * (Order + 1)];
+  find_momenta<Order>(geometry, sections, v, p);
+  *energy = Pack{};
+  for (int c = 0; c < 12 * (Order + 1); ++c) *energy += 0.5 * p[c] * v[c];
+}
+
+// T as above, L = sum of M v over positions, J = sum_s q_s x (M v)_s
 template <int Order>
 CULM_FOR_EACH_VECTOR_UNIT void find_pack_momentum(
     const typename DirectorPack<Order>::Geometry& geometry,
     const typename DirectorPack<Order>::Sections& sections, const Pack* q, const Pack* v,
     PackMomentum& momentum) noexcept {
-  typename DirectorPack<Order>::Mass mass;
-  integrate_mass<Order>(geometry, sections, mass);
   constexpr Pack one = {1, 1, 1, 1, 1, 1, 1, 1};
-  Pack p[12 * (Order + 1)] = {};
-  for_masses<Order>(
-      mass.data(), [&](int s, int t, const Pack& m) __attribute__((always_inline)) {
-        for (int c = 0; c < 3; ++c) p[3 * s + c] += m * v[3 * t + c];
-      });
+  Pack p[12 * (Order + 1)];
+  find_momenta<Order>(geometry, sections, v, p);
   momentum = PackMomentum{};
   for (int s = 0; s < 4 * (Order + 1); ++s) {
     for (int c = 3 * s; c < 3 * s + 3; ++c) momentum.kinetic_energy += 0.5 * p[c] * v[c];
@@ -454,6 +488,11 @@ template <int Order>
 void DirectorPack<Order>::strain_energy(const Pack* slots, const Pack* less,
                                         Pack* energy) const noexcept {
   find_strain_energy<Order>(geometry_, *sections_, slots, less, energy);
+}
+
+template <int Order>
+void DirectorPack<Order>::kinetic_energy(const Pack* velocity, Pack* energy) const noexcept {
+  find_kinetic_energy<Order>(geometry_, *sections_, velocity, energy);
 }
 
 template <int Order>

@@ -98,7 +98,7 @@ TYPED_TEST(ProjectedElement, ExtrapolatedStressIsOfFirstOrder) {
 // with the same sections share them.
 TYPED_TEST(ProjectedElement, EnergyAndMomentumAreTheSameInBothForms) {
   struct Sums {
-    double energy, taken;
+    double energy, taken, kinetic;
     model::Momentum momentum;
   };
   const auto expect_same = [](const Stencil& stencil, int sections) {
@@ -111,9 +111,12 @@ TYPED_TEST(ProjectedElement, EnergyAndMomentumAreTheSameInBothForms) {
       const model::State state = kit::random_state(model, 3);
       dense.prepare(state, stencil);
       const model::StepWork work = batch->step_work(state, stencil);
-      Sums found{batch->stored_energy(state.next), work.damping + work.dissipation, {}};
-      dynamic_cast<model::MassSource&>(*batch).add_momentum(state.next, state.velocity,
-                                                            found.momentum);
+      const auto& source = dynamic_cast<const model::MassSource&>(*batch);
+      Sums found{batch->stored_energy(state.next),
+                 work.damping + work.dissipation,
+                 source.kinetic_energy(state.velocity),
+                 {}};
+      source.add_momentum(state.next, state.velocity, found.momentum);
       return found;
     };
     const Sums packs = sums(model::Form::null_space);
@@ -125,6 +128,8 @@ TYPED_TEST(ProjectedElement, EnergyAndMomentumAreTheSameInBothForms) {
       EXPECT_NEAR(packs.taken, each.taken, rounding * each.energy);
     }
     const double kinetic = each.momentum.kinetic_energy;
+    EXPECT_NEAR(packs.kinetic / kinetic, 1.0, rounding);
+    EXPECT_NEAR(each.kinetic / kinetic, 1.0, rounding);
     EXPECT_GT(kinetic, 0.0);
     EXPECT_NEAR(packs.momentum.kinetic_energy / kinetic, 1.0, rounding);
     EXPECT_LT((packs.momentum.linear - each.momentum.linear).norm(),
@@ -135,6 +140,39 @@ TYPED_TEST(ProjectedElement, EnergyAndMomentumAreTheSameInBothForms) {
   for (const Stencil& stencil : kit::law_stencils) {
     expect_same(stencil, 1);
     expect_same(stencil, 5);
+  }
+}
+
+// What a step takes comes from its last evaluation where that told it, and is the same where it did
+// not: after one with the tangent, and before any.
+TYPED_TEST(ProjectedElement, TakesWhatItsLastEvaluationTold) {
+  model::Model model;
+  fill<TypeParam>(model, false, 2 * pack_lanes + 3, 5);
+  model.freeze(model::Form::null_space);
+  model::Batch* batch = kit::find_batch(model, effect);
+  kit::DenseAssembly dense(model);
+  for (const Stencil& stencil : kit::law_stencils) {
+    model::State state = kit::random_state(model, 3);
+    dense.prepare(state, stencil);
+    const auto taken = [&] {
+      const model::StepWork work = batch->step_work(state, stencil);
+      return work.damping + work.dissipation;
+    };
+    const double asked = taken();
+    const double rounding = 1e-13 * batch->stored_energy(state.next);
+    dense.residual(state, stencil, {batch});
+    EXPECT_NEAR(taken(), asked, rounding);
+    const model::Coordinates other = kit::random_state(model, 4).next;
+    state.next = other;
+    dense.tangent(state, stencil, {batch});
+    const double asked_again = taken();
+    EXPECT_EQ(std::abs(asked_again - asked) > 1e-3 * asked, asked != 0.0);
+    dense.residual(state, stencil, {batch});
+    EXPECT_NEAR(taken(), asked_again, rounding);
+    batch->accept(state);
+    EXPECT_EQ(taken(), asked_again);
+    dense.prepare(state, stencil);
+    EXPECT_EQ(taken(), asked_again);
   }
 }
 

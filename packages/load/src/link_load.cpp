@@ -20,6 +20,19 @@ LinkSlots link_forces(const LinkGradient& B, const Vec<2>& stress) {
   return forces;
 }
 
+// Whether forms do not change under rigid motion: without vectors fixed in space, and with
+// positions of which only differences count.
+bool is_internal(const Link& link) {
+  const auto moves_along = [](const Vec3& fixed, const model::SlotSum& factors) {
+    double positions = 0.0;
+    for (std::size_t s = 0; s < factors.size(); s += 4) positions += factors[s];
+    return fixed.isZero(0.0) && positions == 0.0;
+  };
+  return std::ranges::all_of(link.forms, [&](const LinkForm& form) {
+    return moves_along(form.p, form.alpha) && moves_along(form.w, form.beta);
+  });
+}
+
 // A coordinate as laws know it.
 double length_of(double z) { return z == no_length ? 0.0 : z; }
 
@@ -28,6 +41,7 @@ double length_of(double z) { return z == no_length ? 0.0 : z; }
 void LinkLoad::add(Link link) {
   Item item;
   item.link = std::move(link);
+  item.is_internal = is_internal(item.link);
   const Measure kind = item.link.measure;
   item.prev.y = values_of(item.link, slots_of(item.link, nodes_.reference()));
   // angles are zero in the reference
@@ -63,6 +77,7 @@ void LinkLoad::prepare(const model::State& state, const Stencil&) {
     Item& item = this->item(i);
     const Vec<2> y = values_of(item.link, slots_of(item.link, state.prev));
     item.prev = follow(item, item.accepted, y);
+    item.reached.reset();
   }
 }
 
@@ -71,6 +86,7 @@ void LinkLoad::accept(model::State& state) {
     Item& item = this->item(i);
     const Vec<2> y = values_of(item.link, slots_of(item.link, state.next));
     item.accepted = item.prev = follow(item, item.prev, y);
+    item.reached.reset();
   }
 }
 
@@ -86,7 +102,7 @@ LinkLoad::Response LinkLoad::respond(const Item& item, const LinkSlots& next,
   }
   return {force * step.gradient,
           force * step.derivative + derivative * step.gradient * step.slope.transpose(),
-          by_signal * step.gradient, force};
+          by_signal * step.gradient, force, step.next};
 }
 
 // Of a law that is zero there: its slope acts in all directions, by the stress on a square of a
@@ -94,7 +110,7 @@ LinkLoad::Response LinkLoad::respond(const Item& item, const LinkSlots& next,
 LinkLoad::Response LinkLoad::next_to_no_length(Measure measure, double slope,
                                                const MeasureStep& step) {
   const double pull = slope * no_length;
-  Response response{pull * step.gradient, Mat<2, 2>::Zero(), Vec<2>::Zero(), 0.0};
+  Response response{pull * step.gradient, Mat<2, 2>::Zero(), Vec<2>::Zero(), 0.0, step.next};
   if (measure == Measure::radius) response.tangent = pull * step.derivative;
   return response;
 }
@@ -120,6 +136,7 @@ Verdict LinkLoad::assemble_item(std::size_t i, const model::State& state, const 
   const Motion motion(nodes_, item.link.nodes, state, stencil.theta);
   const Response response = respond(item, motion.next, state, stencil);
   item.force = response.force;
+  item.reached = response.reached;
   const LinkGradient B = gradient_of(item.link, motion.mid);
   const LinkSlots r = link_forces(B, response.stress);
   const Verdict verdict = add_slot_residual<Space>(placement_, i, r, motion.arms_mid, target);
@@ -197,11 +214,15 @@ void LinkLoad::restore(std::span<const double> memory) {
                           memory[item_memory * i + 2]};
     items_[i].prev = items_[i].accepted;
     items_[i].force.reset();  // that of another state
+    items_[i].reached.reset();
   }
 }
 
 void LinkLoad::forget_evaluation() {
-  for (Item& item : items_) item.force.reset();
+  for (Item& item : items_) {
+    item.force.reset();
+    item.reached.reset();
+  }
 }
 
 double LinkLoad::stored_energy(const model::Coordinates& q) const {
@@ -231,12 +252,16 @@ model::StepWork LinkLoad::step_work(const model::State& state, const Stencil& st
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     if (!placement_.owned[i]) continue;
     const Item& item = this->item(i);
+    if (item.is_internal && item.reached) {
+      law_->add_work(*item.force, item.prev.z - item.link.rest, *item.reached - item.link.rest,
+                     work);
+      continue;
+    }
     const Motion motion(nodes_, item.link.nodes, state, stencil.theta);
-    const double z = follow(item, item.prev, values_of(item.link, motion.next)).z;
-    const double prev = item.prev.z - item.link.rest;
-    const double next = z - item.link.rest;
-    law_->add_work(law_->answer(prev, next, state, stencil).force, prev, next, work);
-    const Vec<2> stress = respond(item, motion.next, state, stencil).stress;
+    const Response response = respond(item, motion.next, state, stencil);
+    law_->add_work(response.force, item.prev.z - item.link.rest, response.reached - item.link.rest,
+                   work);
+    const Vec<2>& stress = response.stress;
     const LinkGradient B = gradient_of(item.link, motion.mid);
     for (Eigen::Index s = 0; s < motion.mid.cols(); ++s) {
       const Vec3 force = -B.middleRows<3>(3 * s) * stress;

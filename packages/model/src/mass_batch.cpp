@@ -143,6 +143,16 @@ void MassBatch::visit_masses(const MassVisitor& visit) const {
   for (const Item& item : items_) visit(std::span(&item.node, 1), item.mass);
 }
 
+double MassBatch::kinetic_energy(const Coordinates& velocity) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+    if (!placement_.owned[i]) continue;
+    const Item& item = local(i);
+    sum += model::kinetic_energy<4>(item.mass, NodeTable::slots(velocity, item.node));
+  }
+  return sum;
+}
+
 void MassBatch::add_momentum(const Coordinates& q, const Coordinates& velocity,
                              Momentum& momentum) const {
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {

@@ -22,6 +22,7 @@ class Books {
 
   /// What all batches pushed with in the last step, whichever way: the sum of the sizes of their
   /// forces [N] and of their moments about the origin [N m], none less than on any number of ranks.
+  /// Zero where they were not asked for.
   double forces() const { return pushed_[0]; }
   double moments() const { return pushed_[1]; }
 
@@ -33,10 +34,12 @@ class Books {
 
  private:
   const assembly::System& system_;
+  bool with_momenta_;
   std::vector<model::Batch*> batches_;  ///< that may have something to book
   std::vector<std::string> accounts_;
   std::vector<std::size_t> account_of_;  ///< by batch
   std::vector<model::StepWork> works_;
+  std::vector<model::StepWork> step_;  ///< of the last step alone
   std::array<double, 2> pushed_ = {0.0, 0.0};
 };
 

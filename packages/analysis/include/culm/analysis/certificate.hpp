@@ -27,7 +27,9 @@ class Certificate {
   /// What drives do beyond the work of the step, where a corner of a prescribed motion makes
   /// velocities jump [J].
   void add_blow(double work);
-  /// After the step was accepted: compares balances in every tenth step.
+  /// Whether balances are to be compared after this step, as after every tenth.
+  bool is_due() const;
+  /// After a step was accepted: compares balances.
   void compare(const model::State& state);
   /// Where the run stands at its end, wherever that is.
   void compare_last(const model::State& state);
@@ -81,10 +83,10 @@ class Certificate {
   static auto memory(Self& self);
   std::vector<Amount> amounts() const;
   std::vector<Line> lines() const;
-  void measure(const model::State& state);
   double largest_energy() const;
   double energy_scale() const;
   double moved_by_rounding() const;
+  void look_at(const model::State& state);
   double closing_energy(const model::State& state) const;
   std::string excuse(bool is_rounding) const;
   double linear_scale() const;

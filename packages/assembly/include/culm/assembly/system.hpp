@@ -9,6 +9,7 @@
 #include <culm/model/model.hpp>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -195,7 +196,9 @@ class System {
 
   /// Strain energy of all elements [J].
   double strain_energy(const model::Coordinates& q) const;
-  Energies energies(const model::Coordinates& q, const model::Momentum& momentum) const;
+  /// @param kinetic  that of the velocity at q [J]
+  Energies energies(const model::Coordinates& q, double kinetic) const;
+  double kinetic_energy(const model::Coordinates& velocity) const;
   model::Momentum momentum(const model::Coordinates& q, const model::Coordinates& velocity) const;
   double multiplier_scale() const { return multiplier_scale_; }
 
@@ -274,9 +277,12 @@ class System {
   Ledger& ledger_;
   Layout layout_;
   std::vector<model::Batch*> batches_;
+  std::vector<const model::MassSource*> masses_;
   std::vector<model::Batch*> driven_;  ///< those that depend on time itself
   std::size_t driven_elements_ = 0;    ///< the first of them
-  std::vector<Ledger::Id> effects_;
+  /// Effects of the batches: when they are evaluated, by what is wanted, and when they extrapolate.
+  std::array<std::optional<Ledger::Round>, 3> evaluations_;
+  std::optional<Ledger::Round> extrapolation_;
   Ledger::Id update_effect_;
   bool needs_all_nodes_ = false;  ///< on all ranks, up to date in each evaluation
   std::vector<int> slaves_;       ///< whose masters this rank needs

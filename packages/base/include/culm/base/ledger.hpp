@@ -3,6 +3,8 @@
 #include <culm/base/cycle_clock.hpp>
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -73,7 +75,54 @@ class Ledger {
     friend class Ledger;
   };
 
+  /// Effects that work in the same order again and again. Where they do that so fast that looks at
+  /// the clock would be a notable part of it, one lap in eight is timed effect by effect, by
+  /// chance. The others are timed as a whole, of which effects are given what they had of all laps
+  /// that were: nothing is lost, and who is slow now and then has its part.
+  class Round {
+   public:
+    /// @param effects  in their order; one may come more than once
+    Round(Ledger& ledger, std::vector<Id> effects);
+    ~Round() { share_out(); }
+    Round(const Round&) = delete;
+    Round& operator=(const Round&) = delete;
+
+    /// Once through, to its destruction.
+    class Lap {
+     public:
+      explicit Lap(Round& round);
+      ~Lap();
+      Lap(const Lap&) = delete;
+      Lap& operator=(const Lap&) = delete;
+      /// Begins the effect at this place of their order, the next one.
+      void pass_to(std::size_t place);
+
+     private:
+      Round& round_;
+      bool is_timed_;  ///< effect by effect
+      std::optional<Scope> scope_;
+    };
+
+   private:
+    bool is_to_be_timed();
+    void learn();
+    void put_aside();
+    void share_out();
+
+    Ledger& ledger_;
+    std::vector<Id> order_;
+    std::vector<Id> effects_;     ///< each once
+    std::vector<double> before_;  ///< seconds of each, or of the first, when the lap began
+    std::vector<double> timed_;   ///< seconds of each in all laps that were timed
+    double all_timed_ = 0.0;      ///< their sum
+    double laps_timed_ = 0.0;
+    double pending_ = 0.0;  ///< seconds of other laps that are not shared out yet
+    std::uint32_t chance_ = 0;
+  };
+
  private:
+  double& seconds_of(Id id) { return entries_[static_cast<std::size_t>(id)].seconds; }
+
   /// Books the time since the last change of scope to the innermost open scope.
   void book();
 

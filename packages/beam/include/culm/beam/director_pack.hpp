@@ -35,6 +35,8 @@ class DirectorPack {
   /// What the strains at some slots store, less those at others, or nullptr. @param slots shape (12
   /// num_nodes)
   void strain_energy(const Pack* slots, const Pack* less, Pack* energy) const noexcept;
+  /// @param velocity  of the slots, shape (12 num_nodes)
+  void kinetic_energy(const Pack* velocity, Pack* energy) const noexcept;
   void find_momentum(const Pack* slots, const Pack* velocity,
                      PackMomentum& momentum) const noexcept;
 

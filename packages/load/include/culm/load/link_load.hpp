@@ -68,10 +68,12 @@ class LinkLoad final : public model::Batch, public model::Booked {
   };
   struct Item {
     Link link;
-    Place accepted;  ///< at the end of the last accepted step
-    Place prev;      ///< at the start of the step, which is where a motion begins, too
+    bool is_internal = false;  ///< forces keep the momenta of what it acts on
+    Place accepted;            ///< at the end of the last accepted step
+    Place prev;                ///< at the start of the step, which is where a motion begins, too
     Vec<2> predicted_stress = Vec<2>::Zero();
-    std::optional<double> force;  ///< of the last evaluation
+    std::optional<double> force;    ///< of the last evaluation
+    std::optional<double> reached;  ///< coordinate at its end, if that was in this step
   };
   /// S = G F and its derivative by the forms at the end of the step.
   struct Response {
@@ -79,6 +81,7 @@ class LinkLoad final : public model::Batch, public model::Booked {
     Mat<2, 2> tangent;
     Vec<2> by_signal;  ///< derivative of the stress by the signal of the law
     double force = 0.0;
+    double reached = 0.0;  ///< coordinate at the end of the step
   };
 
   /// Where the link is at forms y, not more than half a turn from `from`.

@@ -50,6 +50,12 @@ constexpr bool counts_start(const Stencil& stencil) {
   return stencil.theta != 1.0 || stencil.theta_strain != 1.0 || stencil.inertia != 0.0;
 }
 
+/// Whether a pack tells the energy of what its strains change by, of which physical and numerical
+/// damping take a share: where no tangent is wanted, as in the last evaluation of most steps.
+constexpr bool tells_change(const Stencil& stencil, bool with_tangent) {
+  return !with_tangent && counts_start(stencil) && stencil.theta_strain != 0.5;
+}
+
 /// What a pack answers, in six unknowns of each of N triads: dx and dtheta, with dd = dtheta x d
 /// for d where forces act in rows and at the end of the step in columns.
 template <int N>
@@ -57,6 +63,8 @@ struct PackSum {
   Packs<6 * N> residual;
   Packs<36 * N * N> tangent;  ///< by rows
   Packs<3 * N> pull;          ///< forces on positions that the tangent belongs to
+  /// 1/2 De . C De with the change De of the strains in the step [J], see `tells_change`.
+  Pack change_energy;
 };
 
 /// Momentum of each element of a pack. @source formulation 1.2, 4.6
@@ -75,7 +83,7 @@ concept ComesInPacks = HasStiffness<E> &&
              const ::culm::Pack* numbers, ::culm::Pack* stress, const Stencil& stencil,
              PackSum<E::num_nodes>& sum, PackMomentum& momentum) {
   // numbers: stress of the tangent, num_points x num_strains, or nullptr for that of the motion;
-  // without tangent only the residual is written
+  // without tangent only the residual is written, and the energy of the change where wanted
   { pack.evaluate(motion, numbers, stencil, true, sum) }
   noexcept->std::same_as<void>;
   // numbers: increments of the slots; stress: of the motion and what they add, to first order
@@ -83,6 +91,9 @@ concept ComesInPacks = HasStiffness<E> &&
   noexcept->std::same_as<void>;
   // numbers: slots of which the strains store energy, less those of others or nullptr; stress: it
   { pack.strain_energy(numbers, numbers, stress) }
+  noexcept->std::same_as<void>;
+  // numbers: velocities of the slots; stress: the kinetic energy
+  { pack.kinetic_energy(numbers, stress) }
   noexcept->std::same_as<void>;
   // numbers: slots and their velocities
   { pack.find_momentum(numbers, numbers, momentum) }

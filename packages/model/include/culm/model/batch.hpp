@@ -109,6 +109,7 @@ class Batch {
   /// Energy stored in the owned items at a configuration [J]: strain energy, or the potential of a
   /// load that has one.
   virtual double stored_energy(const Coordinates& q) const = 0;
+  /// Of a step from state.prev to state.next, which was evaluated last; before accept.
   virtual StepWork step_work(const State& state, const Stencil& stencil) const = 0;
 };
 
@@ -137,6 +138,8 @@ class MassSource {
   /// in memory.
   using MassVisitor = std::function<void(std::span<const int> nodes, const Eigen::MatrixXd& mass)>;
   virtual void visit_masses(const MassVisitor& visit) const = 0;
+  /// Of the owned items [J].
+  virtual double kinetic_energy(const Coordinates& velocity) const = 0;
   /// Adds what the owned items contribute at a configuration and its velocity.
   virtual void add_momentum(const Coordinates& q, const Coordinates& velocity,
                             Momentum& momentum) const = 0;

@@ -111,6 +111,7 @@ class ElementBatch final : public Batch,
 
   void prepare(const State& state, const Stencil& stencil) override {
     use_predicted_ = false;
+    taken_.reset();
     if constexpr (ComesInPacks<E>) packs_.forget_extrapolation();
     const bool wants_strains = laws_.prepare(stencil);
     const Stencil damped = laws_.damped(stencil);
@@ -149,6 +150,7 @@ class ElementBatch final : public Batch,
   }
 
   void accept(State& state) override {
+    taken_.reset();
     laws_.accept();
     if (laws_.branches().empty()) return;
     Strain y;
@@ -186,6 +188,7 @@ class ElementBatch final : public Batch,
 
   Verdict assemble(const State& state, const Stencil& stencil, Want want, Target& target) override {
     const Stencil damped = laws_.damped(stencil);
+    taken_.reset();
     if constexpr (ComesInPacks<E>) {
       if (want != Want::mass && comes_in_packs(damped))
         return assemble_packs(state, damped, want, target);
@@ -263,6 +266,23 @@ class ElementBatch final : public Batch,
     });
   }
 
+  double kinetic_energy(const Coordinates& velocity) const override {
+    double sum = 0.0;
+    const auto add = [&](std::size_t i, double energy) {
+      if (placement_.owned[i]) sum += energy;
+    };
+    if constexpr (ComesInPacks<E>) {
+      if (!packs_.empty()) {
+        packs_.for_kinetic_energies(velocity, add);
+        return sum;
+      }
+    }
+    for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      if (placement_.owned[i]) add(i, model::kinetic_energy<S>(mass_of(i), gather(i, velocity)));
+    }
+    return sum;
+  }
+
   void add_momentum(const Coordinates& q, const Coordinates& velocity,
                     Momentum& momentum) const override {
     if constexpr (ComesInPacks<E>) {
@@ -275,15 +295,14 @@ class ElementBatch final : public Batch,
     }
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
       if (!placement_.owned[i]) continue;
-      add_item_momentum<K, S>(masses_.empty() ? local(i).element.mass() : masses_[i], gather(i, q),
-                              gather(i, velocity), momentum);
+      add_item_momentum<K, S>(mass_of(i), gather(i, q), gather(i, velocity), momentum);
     }
   }
 
   StepWork step_work(const State& state, const Stencil& stencil) const override {
     const Stencil damped = laws_.damped(stencil);
     if (!laws_.takes(damped)) return {};
-    const typename PointLaws<E>::Taken taken = taken_in_step(state, damped);
+    const Taken taken = taken_in_step(state, damped);
     StepWork work;
     const double physical = damping().viscosity / stencil.step;
     const double share = physical > 0.0 ? physical / damping().weight(stencil.step) : 0.0;
@@ -356,6 +375,7 @@ class ElementBatch final : public Batch,
  private:
   static constexpr int K = slots_of(E::node_kind);  // slots per node
   using Motion = ElementMotion<E>;
+  using Taken = typename PointLaws<E>::Taken;
   template <class Space>
   using Contribution = ElementContribution<Space, E>;
 
@@ -375,6 +395,9 @@ class ElementBatch final : public Batch,
 
   // The i-th of those that this rank evaluates.
   const typename ElementStore<E>::Item& local(std::size_t i) const { return items_.local(i); }
+  SlotMatrix<S> mass_of(std::size_t i) const {
+    return masses_.empty() ? SlotMatrix<S>(local(i).element.mass()) : masses_[i];
+  }
   ItemSlots gather(std::size_t i, const Coordinates& q) const {
     return gather_slots<K>(local(i).nodes, q);
   }
@@ -419,8 +442,9 @@ class ElementBatch final : public Batch,
   }
 
   // @param stencil  damped
-  typename PointLaws<E>::Taken taken_in_step(const State& state, const Stencil& stencil) const {
-    typename PointLaws<E>::Taken taken;
+  Taken taken_in_step(const State& state, const Stencil& stencil) const {
+    if (taken_) return *taken_;
+    Taken taken;
     if constexpr (ComesInPacks<E>) {
       if (comes_in_packs(stencil)) {
         taken.by_law =
@@ -435,7 +459,7 @@ class ElementBatch final : public Batch,
       const ItemSlots q = gather(i, state.next);
       for (int p = 0; p < E::num_points; ++p) {
         element.strain(p, q, y);
-        laws_.add_taken(element, p, at(i, p), y, stencil, taken);
+        laws_.add_taken(element, p, at(i, p), y, stencil, nullptr, taken);
       }
     }
     return taken;
@@ -443,34 +467,46 @@ class ElementBatch final : public Batch,
 
   template <class Space>
   Verdict assemble_as(const State& state, const Stencil& stencil, Want want, Target& target) {
+    const bool tells = want == Want::residual && stencil.step > 0.0 && laws_.takes(stencil);
+    Taken taken;
     Verdict verdict = Verdict::ok;
     for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+      Taken* const told = tells && placement_.owned[i] ? &taken : nullptr;
       verdict = worse(verdict, want == Want::mass
                                    ? assemble_mass<Space>(i, state, target)
-                                   : assemble_item<Space>(i, state, stencil, want, target));
+                                   : assemble_item<Space>(i, state, stencil, want, told, target));
     }
+    if (tells && verdict == Verdict::ok) taken_ = taken;
     return verdict;
   }
 
   Verdict assemble_packs(const State& state, const Stencil& stencil, Want want,
                          Target& target) requires ComesInPacks<E> {
     const bool with_tangent = want == Want::residual_and_tangent;
-    return packs_.evaluate(nodes_, state, stencil, with_tangent, [&](std::size_t i, const auto& c) {
+    const bool tells = tells_change(stencil, with_tangent);
+    double change_energy = 0.0;
+    const auto add = [&](std::size_t i, const auto& c) {
       add_to_target<N>(i, c.residual, with_tangent ? &c.tangent : nullptr, placement_.scatter,
                        target);
-    });
+      if (tells && placement_.owned[i]) change_energy += c.change_energy;
+    };
+    const Verdict verdict = packs_.evaluate(nodes_, state, stencil, with_tangent, add);
+    if (tells && verdict == Verdict::ok) {
+      taken_ = Taken{PointLaws<E>::share_taken(stencil) * change_energy, 0.0};
+    }
+    return verdict;
   }
 
   template <class Space>
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
-                        Target& target) {
+                        Taken* taken, Target& target) {
     const Motion motion = motion_of(i, state, stencil.theta);
     Contribution<Space> c(want == Want::residual_and_tangent);
     Verdict verdict = Verdict::ok;
     if constexpr (ActsOnUnknowns<E> && Space::form == Form::null_space) {
-      verdict = add_stress_to_unknowns(i, motion, stencil, c);
+      verdict = add_stress_to_unknowns(i, motion, stencil, taken, c);
     } else {
-      verdict = add_stress(i, motion, stencil, c);
+      verdict = add_stress(i, motion, stencil, taken, c);
     }
     if (stencil.inertia != 0.0) add_inertia(i, motion, state, stencil, c);
     if (!std::isfinite(c.residual.sum())) return Verdict::not_finite;
@@ -478,9 +514,9 @@ class ElementBatch final : public Batch,
     return verdict;
   }
 
-  // B(q_theta)^T S and its derivative
+  // B(q_theta)^T S and its derivative; `taken`, where wanted, += what the step takes
   template <class Space>
-  Verdict add_stress(std::size_t i, const Motion& motion, const Stencil& stencil,
+  Verdict add_stress(std::size_t i, const Motion& motion, const Stencil& stencil, Taken* taken,
                      Contribution<Space>& c) {
     constexpr int W = Space::width * N;
     const E& element = local(i).element;
@@ -496,6 +532,7 @@ class ElementBatch final : public Batch,
       verdict = worse(verdict, laws_.respond(element, p, at(i, p), y, stencil, response));
       reduce<Space>(B, motion.arms_mid, R);
       c.residual.noalias() += R.lazyProduct(response.stress);
+      if (taken) laws_.add_taken(element, p, at(i, p), y, stencil, &response, *taken);
       if (!c.with_tangent) continue;
 
       const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
@@ -519,7 +556,7 @@ class ElementBatch final : public Batch,
   // The same by products that the element knows how to do faster.
   template <class Space>
   Verdict add_stress_to_unknowns(std::size_t i, const Motion& motion, const Stencil& stencil,
-                                 Contribution<Space>& c) {
+                                 Taken* taken, Contribution<Space>& c) {
     const E& element = local(i).element;
     Verdict verdict = Verdict::ok;
     Strain y;
@@ -529,6 +566,7 @@ class ElementBatch final : public Batch,
       element.strain(p, motion.next, y);
       verdict = worse(verdict, laws_.respond(element, p, at(i, p), y, stencil, response));
       E::add_force(motion.mid, response.stress, force);
+      if (taken) laws_.add_taken(element, p, at(i, p), y, stencil, &response, *taken);
       if (!c.with_tangent) continue;
       const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
       if (use_predicted_) E::add_force(motion.mid, stress, c.slot_force);
@@ -618,6 +656,7 @@ class ElementBatch final : public Batch,
   std::vector<SlotMatrix<S>> masses_;  // of the local items; filled when inertia wants them
   std::vector<Strain> predicted_stress_;
   bool use_predicted_ = false;
+  std::optional<Taken> taken_;  // by the owned items in the step, if the last evaluation told
   struct NoPacks {};
   [[no_unique_address]] std::conditional_t<ComesInPacks<E>, ElementPacks<E>, NoPacks> packs_;
 };

@@ -26,6 +26,7 @@ class ElementPacks {
   struct Contribution {
     Vec<W> residual;
     RowMat<W, W> tangent;
+    double change_energy = 0.0;  ///< [J], see `tells_change`
   };
 
   /// Packs of `count` items in place of all before. @param item  of each number: element and nodes
@@ -63,6 +64,18 @@ class ElementPacks {
       gather(nodes_[pack], q, slots);
       if (less != nullptr) gather(nodes_[pack], *less, other);
       packs_[pack].strain_energy(slots.data(), less != nullptr ? other.data() : nullptr, &energy);
+      for_lanes(pack, [&](std::size_t i, int l) { visit(i, energy[l]); });
+    }
+  }
+
+  /// Calls visit(number, kinetic energy).
+  template <class Visit>
+  void for_kinetic_energies(const Coordinates& velocity, Visit visit) const {
+    Packs<12 * N> rates;
+    Pack energy;
+    for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+      gather(nodes_[pack], velocity, rates);
+      packs_[pack].kinetic_energy(rates.data(), &energy);
       for_lanes(pack, [&](std::size_t i, int l) { visit(i, energy[l]); });
     }
   }
@@ -117,7 +130,7 @@ class ElementPacks {
       fetch_pack(pack + 1, read);
       packs_[pack].evaluate(motion_, is_extrapolated_ ? stress_[pack].data() : nullptr, stencil,
                             with_tangent, sum_);
-      take(with_tangent);
+      take(with_tangent, tells_change(stencil, with_tangent));
       for_lanes(pack, [&](std::size_t i, int l) {
         const Nodes& nodes = lanes[index(l)];
         Contribution& c = contributions_[index(l)];
@@ -183,10 +196,15 @@ class ElementPacks {
   }
 
   // The contributions of all lanes.
-  void take(bool with_tangent) {
+  void take(bool with_tangent, bool tells_change) {
     std::array<double*, pack_lanes> rows;
     for (std::size_t l = 0; l < pack_lanes; ++l) rows[l] = contributions_[l].residual.data();
     from_lanes(sum_.residual.data(), W, rows);
+    if (tells_change) {
+      for (std::size_t l = 0; l < pack_lanes; ++l) {
+        contributions_[l].change_energy = sum_.change_energy[l];
+      }
+    }
     if (!with_tangent) return;
     for (std::size_t l = 0; l < pack_lanes; ++l) rows[l] = contributions_[l].tangent.data();
     from_lanes(sum_.tangent.data(), W * W, rows);

@@ -16,6 +16,12 @@ Slots<S> inertia_force(const SlotMatrix<S>& mass, const Slots<S>& acceleration) 
   return acceleration * mass;
 }
 
+/// T = 1/2 v . M v of an item.
+template <int S>
+double kinetic_energy(const SlotMatrix<S>& mass, const Slots<S>& velocity) {
+  return 0.5 * inertia_force(mass, velocity).cwiseProduct(velocity).sum();
+}
+
 /// Adds p = M v of an item: T = 1/2 v . p, L = sum of p over positions, J = sum_s q_s x p_s.
 /// @tparam K slots per node, the first of which is the position. @source formulation 1.2, 4.6
 template <int K, int S>

@@ -33,6 +33,7 @@ class MassBatch final : public Batch, public MassSource {
   StepWork step_work(const State&, const Stencil&) const override { return {}; }
   void add_mass_times(const Coordinates& acceleration, Coordinates& force) const override;
   void visit_masses(const MassVisitor& visit) const override;
+  double kinetic_energy(const Coordinates& velocity) const override;
   void add_momentum(const Coordinates& q, const Coordinates& velocity,
                     Momentum& momentum) const override;
 

@@ -140,8 +140,10 @@ class PointLaws {
   /// Of what the change of the strains would store by itself, so much is taken by a linear law.
   static double share_taken(const Stencil& stencil) { return 2.0 * stencil.theta_strain - 1.0; }
   /// Adds that of a point at the strain y of the end of the step.
+  /// @param response  to it, if that is known
   void add_taken(const E& element, int p, std::size_t point, const Strain& y,
-                 const Stencil& stencil, Taken& taken) const {
+                 const Stencil& stencil, [[maybe_unused]] const Response<M>* response,
+                 Taken& taken) const {
     const Strain& prev = prev_[point];
     if constexpr (HasStiffness<E>) {
       taken.by_law += share_taken(stencil) * element.energy(p, y - prev);
@@ -157,10 +159,13 @@ class PointLaws {
         before = internals_.prev(point);
         after = internals_.next(point);
       }
-      Response<M> response;
-      response.wants_tangent = false;
-      respond_with(after, element, p, point, y, stencil, response);
-      taken.by_law += response.stress.dot(y - prev) -
+      Response<M> found;
+      if (response == nullptr) {
+        found.wants_tangent = false;
+        respond_with(after, element, p, point, y, stencil, found);
+        response = &found;
+      }
+      taken.by_law += response->stress.dot(y - prev) -
                       (energy_of(element, p, y, after) - energy_of(element, p, prev, before));
     }
   }

@@ -18,6 +18,8 @@ namespace culm::shell {
 /// @source formulation 1.4.3, 4.4
 class HyperelasticShell : public ShellForms {
  public:
+  /// As the stress of a step is a discrete derivative of the energy; see StressConserves.
+  static constexpr bool stress_conserves = true;
   static constexpr int num_internals = Enhancement::most;
   static constexpr int num_resultants = 8;
   /// The enhanced parameters; those that the element does not have stay zero.
