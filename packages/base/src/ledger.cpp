@@ -134,9 +134,9 @@ Ledger::Round::Round(Ledger& ledger, std::vector<Id> effects)
   timed_.resize(effects_.size());
 }
 
-// Where an effect takes a microsecond in the mean, a look at the clock is a hundredth of it.
+// A look at the clock takes a hundredth of a microsecond: a four-hundredth of what it is worth.
 bool Ledger::Round::is_to_be_timed() {
-  constexpr double worth_a_look = 1e-6;  // [s]
+  constexpr double worth_a_look = 4e-6;  // [s]
   constexpr double known = 8.0;          // laps
   const double looks = laps_timed_ * static_cast<double>(order_.size());
   if (laps_timed_ < known || all_timed_ <= 0.0 || all_timed_ > worth_a_look * looks) return true;
