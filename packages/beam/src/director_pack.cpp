@@ -70,20 +70,15 @@ CULM_INLINE void add_strain_increment(const PackFrame<Order>& q, const PackFrame
   }
 }
 
-// e += the mean of the strains at both ends of the step that the stencil asks for; `change`, where
-// wanted, += what they change by.
+// e += the mean of the strains at both ends of the step that the stencil asks for
 template <int Order>
 CULM_INLINE void add_mean_strain(const typename DirectorPack<Order>::Point& p,
                                  const PackMotion<Order + 1>& motion, const PackFrame<Order>& next,
-                                 const Stencil& stencil, Pack* e, Pack* change = nullptr) {
+                                 const Stencil& stencil, Pack* e) {
   const double weight = stencil.theta_strain;
-  if (weight == 1.0 && change == nullptr) return add_strain<Order>(p, next, weight, e);
-  Pack at_end[6] = {}, at_start[6] = {};
-  add_strain<Order>(p, next, 1.0, at_end);
-  add_strain<Order>(p, PackFrame<Order>(p, motion.prev.data()), 1.0, at_start);
-  for (int i = 0; i < 6; ++i) {
-    e[i] += weight * at_end[i] + (1.0 - weight) * at_start[i];
-    if (change != nullptr) change[i] += at_end[i] - at_start[i];
+  add_strain<Order>(p, next, weight, e);
+  if (weight != 1.0) {
+    add_strain<Order>(p, PackFrame<Order>(p, motion.prev.data()), 1.0 - weight, e);
   }
 }
 
@@ -106,13 +101,6 @@ CULM_INLINE void compute_stress(const Pack* C, const Pack* e, Pack* stress) {
     stress[i] = C[6 * i] * e[0];
     for (int j = 1; j < 6; ++j) stress[i] += C[6 * i + j] * e[j];
   }
-}
-
-// energy += 1/2 e . C e
-CULM_INLINE void add_energy(const Pack* C, const Pack* e, Pack& energy) {
-  Pack stress[6];
-  compute_stress(C, e, stress);
-  for (int i = 0; i < 6; ++i) energy += 0.5 * e[i] * stress[i];
 }
 
 // force += B^T S on slots: on x_a  N'_a Σ S_i d_i,  on d_i,a  N_a S_i x' + S_3+k h_j - S_3+j h_k
@@ -286,18 +274,15 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
   Pack force[12 * N] = {};          // on slots
   Pack tangent_force[12 * N] = {};  // that the tangent belongs to
   Pack A[16 * N * N] = {};
-  const bool tells = tells_change(stencil, with_tangent);
-  Pack change_energy = {};
   if (with_tangent) sum.tangent = {};
   for (std::size_t g = 0; g < Order; ++g) {
     const auto& p = geometry.points[g];
     const PackFrame<Order> next_frame(p, motion.next.data());
     const PackFrame<Order> mid_frame(p, mid);
-    Pack C[36], e[6] = {}, change[6] = {}, stress[6];
-    add_mean_strain<Order>(p, motion, next_frame, stencil, e, tells ? change : nullptr);
+    Pack C[36], e[6] = {}, stress[6];
+    add_mean_strain<Order>(p, motion, next_frame, stencil, e);
     unpack_stiffness<Order>(p.length, sections.stiffness[g], C);
     compute_stress(C, e, stress);
-    if (tells) add_energy(C, change, change_energy);
     add_force<Order>(p, mid_frame, stress, force);
     if (!with_tangent) continue;
     const Pack* S = stress;
@@ -311,7 +296,6 @@ CULM_FOR_EACH_VECTOR_UNIT void evaluate_pack(const typename DirectorPack<Order>:
     compute_rows<Order>(p, mid_frame, mid, R_mid);
     add_product<Order>(C, weight, R_mid, R_next, sum.tangent.data());
   }
-  if (tells) sum.change_energy = change_energy;
   if (with_tangent && predicted == nullptr) {
     for (int c = 0; c < 12 * N; ++c) tangent_force[c] = force[c];
   }
@@ -369,15 +353,17 @@ CULM_FOR_EACH_VECTOR_UNIT void find_strain_energy(
     const typename DirectorPack<Order>::Geometry& geometry,
     const typename DirectorPack<Order>::Sections& sections, const Pack* slots, const Pack* less,
     Pack* energy) noexcept {
-  *energy = Pack{};
+  Pack twice = {};
   for (std::size_t g = 0; g < Order; ++g) {
     const auto& p = geometry.points[g];
-    Pack C[36], e[6] = {};
+    Pack C[36], e[6] = {}, stress[6];
     add_strain<Order>(p, PackFrame<Order>(p, slots), 1.0, e);
     if (less != nullptr) add_strain<Order>(p, PackFrame<Order>(p, less), -1.0, e);
     unpack_stiffness<Order>(p.length, sections.stiffness[g], C);
-    add_energy(C, e, *energy);
+    compute_stress(C, e, stress);
+    for (int i = 0; i < 6; ++i) twice += e[i] * stress[i];
   }
+  *energy = 0.5 * twice;
 }
 
 // M v
@@ -476,6 +462,8 @@ void DirectorPack<Order>::evaluate(const Motion& motion, const Pack* predicted,
                                    const Stencil& stencil, bool with_tangent,
                                    Sum& sum) const noexcept {
   evaluate_pack<Order>(geometry_, *sections_, motion, predicted, stencil, with_tangent, sum);
+  if (!tells_change(stencil, with_tangent)) return;
+  strain_energy(motion.next.data(), motion.prev.data(), &sum.change_energy);
 }
 
 template <int Order>

@@ -485,10 +485,10 @@ class ElementBatch final : public Batch,
     const bool with_tangent = want == Want::residual_and_tangent;
     const bool tells = tells_change(stencil, with_tangent);
     double change_energy = 0.0;
-    const auto add = [&](std::size_t i, const auto& c) {
+    const auto add = [&](std::size_t i, int lane, const auto& c) {
       add_to_target<N>(i, c.residual, with_tangent ? &c.tangent : nullptr, placement_.scatter,
                        target);
-      if (tells && placement_.owned[i]) change_energy += c.change_energy;
+      if (tells && placement_.owned[i]) change_energy += packs_.change_energy(lane);
     };
     const Verdict verdict = packs_.evaluate(nodes_, state, stencil, with_tangent, add);
     if (tells && verdict == Verdict::ok) {

@@ -22,11 +22,10 @@ class ElementPacks {
   static constexpr int W = 6 * N;  ///< unknowns of an element
   using Nodes = std::array<int, N>;
 
-  /// What an element adds to the equations.
-  struct Contribution {
-    Vec<W> residual;
+  /// What an element adds to the equations. Numbers come by lines of the cache, and none in two.
+  struct alignas(sizeof(Pack)) Contribution {
     RowMat<W, W> tangent;
-    double change_energy = 0.0;  ///< [J], see `tells_change`
+    Vec<W> residual;
   };
 
   /// Packs of `count` items in place of all before. @param item  of each number: element and nodes
@@ -117,7 +116,9 @@ class ElementPacks {
     is_extrapolated_ = true;
   }
 
-  /// Evaluates all items and calls add(number, contribution) for each.
+  /// While an item is added: the energy of what its strains change by [J], see `tells_change`.
+  double change_energy(int lane) const { return sum_.change_energy[lane]; }
+  /// Evaluates all items and calls add(number, lane, contribution) for each.
   template <class Add>
   Verdict evaluate(const NodeTable& table, const State& state, const Stencil& stencil,
                    bool with_tangent, Add add) {
@@ -130,7 +131,7 @@ class ElementPacks {
       fetch_pack(pack + 1, read);
       packs_[pack].evaluate(motion_, is_extrapolated_ ? stress_[pack].data() : nullptr, stencil,
                             with_tangent, sum_);
-      take(with_tangent, tells_change(stencil, with_tangent));
+      take(with_tangent);
       for_lanes(pack, [&](std::size_t i, int l) {
         const Nodes& nodes = lanes[index(l)];
         Contribution& c = contributions_[index(l)];
@@ -140,7 +141,7 @@ class ElementPacks {
           }
         }
         if (std::isfinite(c.residual.sum())) {
-          add(i, c);
+          add(i, l, c);
         } else {
           verdict = worse(verdict, Verdict::not_finite);
         }
@@ -196,15 +197,10 @@ class ElementPacks {
   }
 
   // The contributions of all lanes.
-  void take(bool with_tangent, bool tells_change) {
+  void take(bool with_tangent) {
     std::array<double*, pack_lanes> rows;
     for (std::size_t l = 0; l < pack_lanes; ++l) rows[l] = contributions_[l].residual.data();
     from_lanes(sum_.residual.data(), W, rows);
-    if (tells_change) {
-      for (std::size_t l = 0; l < pack_lanes; ++l) {
-        contributions_[l].change_energy = sum_.change_energy[l];
-      }
-    }
     if (!with_tangent) return;
     for (std::size_t l = 0; l < pack_lanes; ++l) rows[l] = contributions_[l].tangent.data();
     from_lanes(sum_.tangent.data(), W * W, rows);
