@@ -12,6 +12,15 @@ namespace culm::assembly {
 /// What a sum over ranks adds to a value without changing it: x + -0 is x also where x is a zero.
 constexpr double nothing = -0.0;
 
+inline Eigen::Map<const Eigen::VectorXd> as_vector(std::span<const double> numbers) {
+  return {numbers.data(), static_cast<Eigen::Index>(numbers.size())};
+}
+
+/// Largest size of those that are numbers; 0 if there are none.
+inline double largest_size(std::span<const double> numbers) {
+  return numbers.empty() ? 0.0 : as_vector(numbers).cwiseAbs().maxCoeff<Eigen::PropagateNumbers>();
+}
+
 /// What the value of an own unknown changes by for one of its column.
 inline double own_scale(const model::OwnUnknown& unknown, double multiplier_scale) {
   return unknown.kind == model::UnknownKind::multiplier ? multiplier_scale : unknown.scale;

@@ -4,8 +4,26 @@
 #include <algorithm>
 
 namespace culm::assembly {
+namespace {
 
-Layout::Layout(model::Model& model, const parallel::Comm& comm) : comm_(comm) {
+std::vector<double> levers_of(const model::NodeTable& nodes) {
+  if (nodes.num_slaves() == 0) return {};
+  std::vector<double> levers(index(nodes.size()), 0.0);
+  const auto place = [&](int node) {
+    return model::NodeTable::slots(nodes.reference(), node).col(0);
+  };
+  for (int node = 0; node < nodes.size(); ++node) {
+    if (!nodes.is_slave(node)) continue;
+    double& lever = levers[index(nodes.master(node))];
+    lever = std::max(lever, (place(node) - place(nodes.master(node))).norm());
+  }
+  return levers;
+}
+
+}  // namespace
+
+Layout::Layout(model::Model& model, const parallel::Comm& comm)
+    : comm_(comm), levers_(levers_of(model.nodes())) {
   const model::UnknownTable& unknowns = model.unknowns();
   const Neighbours neighbours = couple_blocks(model);
   choose_owners(unknowns, neighbours);

@@ -29,28 +29,11 @@ Vec3 position_size(const model::BlockShape& shape, const Vec3& prev, const Vec3&
   return shape.full() ? size : Vec3(Vec3::Constant(size.maxCoeff()));
 }
 
-// How far the farthest node that follows it is from each node; empty where none does. The place of
-// a follower is found from that of its master, and rounded as it is.
-std::vector<double> levers_of(const model::NodeTable& nodes) {
-  std::vector<double> levers;
-  const auto place = [&](int node) {
-    return model::NodeTable::slots(nodes.reference(), node).col(0);
-  };
-  if (nodes.num_slaves() == 0) return levers;
-  for (int node = 0; node < nodes.size(); ++node) {
-    if (!nodes.is_slave(node)) continue;
-    levers.resize(index(nodes.size()), 0.0);
-    double& lever = levers[index(nodes.master(node))];
-    lever = std::max(lever, (place(node) - place(nodes.master(node))).norm());
-  }
-  return levers;
-}
-
 // Sizes of unknowns, in proportion to which they are rounded.
 class UnknownSizes {
  public:
   UnknownSizes(const System& system, const EvaluatedPoint& point)
-      : system_(system), point_(point), levers_(levers_of(system.model().nodes())) {}
+      : system_(system), point_(point) {}
 
   // Of all local columns, each of which is of a block.
   std::unique_ptr<double[]> all() const {
@@ -61,18 +44,24 @@ class UnknownSizes {
     return sizes;
   }
 
-  double of(int column) const {
+  // Of one local column; quick for one after another.
+  double of(int column) {
+    if (column < first_ || column >= end_) find_block_of(column);
+    return sizes_[index(column - first_)];
+  }
+
+ private:
+  void find_block_of(int column) {
     const auto& blocks = system_.layout().local_blocks();
     // blocks without unknowns share the first column of their successor
     const auto after =
         std::ranges::upper_bound(blocks, column, {}, &Layout::LocalBlock::first_column);
     const Layout::LocalBlock& local = *std::prev(after);
-    std::array<double, 12> sizes{};
-    put(local, sizes.data());
-    return sizes[index(column - local.first_column)];
+    first_ = local.first_column;
+    end_ = first_ + system_.model().unknowns().block(local.block).shape.active;
+    put(local, sizes_.data());
   }
 
- private:
   void put(const Layout::LocalBlock& local, double* sizes) const {
     const model::Block block = system_.model().unknowns().block(local.block);
     std::fill_n(sizes, block.shape.active, 1.0);  // directors are of unit length
@@ -82,7 +71,8 @@ class UnknownSizes {
       position =
           position_size(block.shape, model::NodeTable::slots(point_.prev, block.owner).col(0),
                         model::NodeTable::slots(point_.next, block.owner).col(0));
-      if (!levers_.empty()) position.array() += levers_[index(block.owner)];
+      // the place of a follower is found from that of its master, and rounded as it is
+      position.array() += system_.layout().lever(block.owner);
     }
     for (int i = 0; i < (is_node ? 3 : block.shape.width); ++i) {
       const int at = block.shape.position[index(i)];
@@ -103,14 +93,16 @@ class UnknownSizes {
 
   const System& system_;
   const EvaluatedPoint& point_;
-  std::vector<double> levers_;
+  int first_ = 0;  // column of the block that was found last
+  int end_ = 0;
+  std::array<double, 12> sizes_{};
 };
 
 }  // namespace
 
 RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, double limit,
                              double force_scale, double most) {
-  const UnknownSizes size_of(system, point);
+  UnknownSizes size_of(system, point);
   const auto residual = system.residual().values();
   const Matrix& matrix = *system.matrix();
   const auto values = matrix.values();
@@ -146,16 +138,10 @@ RoundingCheck check_rounding(const System& system, const EvaluatedPoint& point, 
   };
   // where the largest one is beyond what matters, as before the last iterations, no other need be
   // judged
-  int worst_row = -1;
-  double worst_found = -1.0;
-  for (int row = 0; row < num_rows; ++row) {
-    const double found = std::abs(residual[index(row)]);
-    if (!(found > worst_found)) continue;
-    worst_found = found;
-    worst_row = row;
-  }
-  if (worst_row >= 0) judge(worst_row, [&](auto k) { return size_of.of(column_of[k]); });
-  if (share <= most && worst_found > limit) {
+  const int worst_row = system.largest_force_row();
+  const bool is_above = worst_row >= 0 && std::abs(residual[index(worst_row)]) > limit;
+  if (is_above) judge(worst_row, [&](auto k) { return size_of.of(column_of[k]); });
+  if (is_above && share <= most) {
     const std::unique_ptr<double[]> sizes = size_of.all();
     for (int row = 0; row < num_rows && share <= most; ++row) {
       const int column = first_column[index(row)];

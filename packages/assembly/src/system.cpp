@@ -86,7 +86,6 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
     const model::Block block = unknowns.block(local.block);
     for (int i = 0; i < block.shape.active; ++i) {
       const auto row = index(local.first_column + i);  // owned columns are numbered as rows
-      is_force_row_.push_back(block.kind == model::BlockKind::node);
       const auto of_row = column_of.subspan(row_begin[row], row_begin[row + 1] - row_begin[row]);
       const auto found = std::ranges::find(of_row, static_cast<int>(row)) - of_row.begin();
       diagonal_.push_back(static_cast<int>(row_begin[row]) + static_cast<int>(found));
@@ -326,19 +325,35 @@ Evaluation System::evaluate(const model::State& state, const Stencil& stencil, W
       target.residual[row] += carried * (*carried_)[row];
     }
   }
-  double largest = 0.0;
-  double sum = 0.0;  // which the maximum of what is not a number is not
-  for (std::size_t row = 0; row < is_force_row_.size(); ++row) {
-    sum += target.residual[row];
-    if (is_force_row_[row]) largest = std::max(largest, std::abs(target.residual[row]));
-  }
+  const double largest = find_largest_force();
   // items are finite one by one, their sum may not be
-  if (!std::isfinite(sum)) verdict = worse(verdict, Verdict::not_finite);
+  if (!std::isfinite(as_vector(target.residual).sum()))
+    verdict = worse(verdict, Verdict::not_finite);
   double found[5] = {static_cast<double>(verdict), largest, target.force_scale,
                      target.constraint_violation, failure.is_here() ? 1.0 : 0.0};
   comm_.max(found);
   if (found[4] != 0.0) failure.throw_everywhere(comm_);
   return {static_cast<Verdict>(static_cast<int>(found[0])), found[1], found[2], found[3]};
+}
+
+// Of the residual on this rank; notes its row.
+double System::find_largest_force() {
+  constexpr std::size_t together = 128;
+  const auto forces = std::as_const(residual_).values().first(index(num_force_rows()));
+  double largest = 0.0;
+  std::size_t from = 0;
+  for (std::size_t first = 0; first < forces.size(); first += together) {
+    const double size =
+        largest_size(forces.subspan(first, std::min(together, forces.size() - first)));
+    if (size <= largest) continue;
+    largest = size;
+    from = first;
+  }
+  const auto is_largest = [&](double force) { return std::abs(force) == largest; };
+  const auto found =
+      std::find_if(forces.begin() + static_cast<std::ptrdiff_t>(from), forces.end(), is_largest);
+  largest_force_row_ = largest > 0.0 ? static_cast<int>(found - forces.begin()) : -1;
+  return largest;
 }
 
 Evaluation System::note_unbalance(const model::State& state, const Stencil& stencil) {
@@ -352,16 +367,16 @@ Evaluation System::note_unbalance(const model::State& state, const Stencil& sten
 void System::carry_residual(double factor) {
   const auto residual = std::as_const(residual_).values();
   carried_.emplace(residual.size(), 0.0);
-  for (std::size_t row = 0; row < residual.size(); ++row) {
-    if (is_force_row_[row]) (*carried_)[row] = factor * residual[row];
+  for (std::size_t row = 0; row < index(num_force_rows()); ++row) {
+    (*carried_)[row] = factor * residual[row];
   }
 }
 
 double System::largest_diagonal() const {
   const auto values = std::as_const(*matrix_).values();
   double largest = 0.0;
-  for (std::size_t row = 0; row < diagonal_.size(); ++row) {
-    if (is_force_row_[row]) largest = std::max(largest, std::abs(values[index(diagonal_[row])]));
+  for (std::size_t row = 0; row < index(num_force_rows()); ++row) {
+    largest = std::max(largest, std::abs(values[index(diagonal_[row])]));
   }
   return largest;
 }
@@ -370,8 +385,7 @@ void System::stiffen(double share) {
   const double largest = comm_.max(largest_diagonal());
   const double least = largest > 0.0 ? largest : 1.0;
   const auto values = matrix_->values();
-  for (std::size_t row = 0; row < diagonal_.size(); ++row) {
-    if (!is_force_row_[row]) continue;
+  for (std::size_t row = 0; row < index(num_force_rows()); ++row) {
     double& entry = values[index(diagonal_[row])];
     entry += share * (entry == 0.0 ? least : std::abs(entry));
   }

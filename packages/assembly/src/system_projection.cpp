@@ -39,13 +39,12 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
     Vector rhs = residual_;
     evaluate(state, stencil, Want::mass);
     const auto b = rhs.values();
-    for (std::size_t row = 0; row < b.size(); ++row) b[row] = is_force_row_[row] ? 0.0 : -b[row];
+    for (std::size_t row = 0; row < b.size(); ++row) b[row] = is_force_row(row) ? 0.0 : -b[row];
     Vector change(layout_.rows());
     solve_mass(rhs, change);
     const auto u = change.values();
-    for (std::size_t row = 0; row < u.size(); ++row) {
-      if (!is_force_row_[row]) u[row] = 0.0;  // its multipliers are no forces
-    }
+    // its multipliers are no forces
+    std::ranges::fill(u.subspan(index(num_force_rows())), 0.0);
     const bool stalls = change.largest() < 1e-15 * size;
     move(state, change, 1.0);
     if (stalls) break;  // at round-off
@@ -189,7 +188,7 @@ System::Motions System::restore_motions(const Snapshot& snapshot, std::string_vi
 // dg/dt of all constraint rows at state.time: h = h_q - g, so g is what h loses while q stays.
 // Second-order differences; zero without work when nothing is driven.
 std::vector<double> System::drive_speed(model::State& state, double probe) {
-  std::vector<double> speed(is_force_row_.size(), 0.0);
+  std::vector<double> speed(layout_.rows().size(), 0.0);
   const auto& equations = model_.equations();
   if (std::none_of(equations.begin(), equations.end(),
                    [](const model::Constraint& c) { return static_cast<bool>(c.drive); })) {
@@ -272,7 +271,7 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   const auto b = rhs.values();
   const auto rates = std::as_const(residual_).values();  // by drives of angular velocities
   for (std::size_t row = 0; row < b.size(); ++row)
-    b[row] = is_force_row_[row] ? 0.0 : speed[row] - rates[row] - b[row];
+    b[row] = is_force_row(row) ? 0.0 : speed[row] - rates[row] - b[row];
   // nobody knows how fast a signal changes that leads, so what it leads stays as it is
   for (const Layout::LocalBlock& local : layout_.local_blocks()) {
     const model::Block block = unknowns.block(local.block);

@@ -271,7 +271,7 @@ void System::save_carried(Snapshot& snapshot) const {
 void System::restore_carried(const std::vector<double>& all) {
   carried_.reset();
   if (all.empty()) return;
-  carried_.emplace(is_force_row_.size());
+  carried_.emplace(layout_.rows().size());
   for (std::size_t row = 0; row < carried_->size(); ++row) {
     (*carried_)[row] = all[static_cast<std::size_t>(layout_.rows().global(row))];
   }

@@ -237,6 +237,25 @@ TEST(FirstColumns, AreThoseOfRowsWithoutGaps) {
   EXPECT_EQ(first_columns(row_begin, column_of), (std::vector<int>{4, -1, -1, 7}));
 }
 
+TEST_P(SystemTest, TheRowOfTheLargestForceIsKnown) {
+  model::Model model;
+  kit::add_chain(model, 40);
+  model.freeze(GetParam());
+  Ledger ledger;
+  System system(model, parallel::Comm(), ledger);
+  EXPECT_EQ(system.largest_force_row(), -1);
+  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
+    const model::State state = kit::random_state(model, seed);
+    system.prepare(state, Stencil::statics());
+    const Evaluation found = system.evaluate(state, Stencil::statics(), Want::residual);
+    const int row = system.largest_force_row();
+    ASSERT_GE(row, 0);
+    ASSERT_LT(row, system.layout().num_node_rows());
+    const auto residual = std::as_const(system.residual()).values();
+    EXPECT_EQ(std::abs(residual[static_cast<std::size_t>(row)]), found.force_residual);
+  }
+}
+
 // Largest residual of all force rows over the bound on rounding of its row.
 double rounding_share(System& system, const model::State& state) {
   system.prepare(state, Stencil::statics());

@@ -35,6 +35,8 @@ class Layout {
   const std::vector<LocalBlock>& local_blocks() const { return local_blocks_; }
   /// Owner of each block of the UnknownTable.
   const std::vector<int>& owners() const { return owners_; }
+  /// How far the farthest node that follows a node is from it [m]; 0 where none does.
+  double lever(int node) const { return levers_.empty() ? 0.0 : levers_[index(node)]; }
 
  private:
   using Neighbours = std::vector<std::vector<int>>;
@@ -50,6 +52,7 @@ class Layout {
 
   parallel::Comm comm_;
   std::vector<int> owners_;
+  std::vector<double> levers_;  ///< by node; empty if none follows another
   std::vector<LocalBlock> local_blocks_;
   int num_node_rows_ = 0;
   std::vector<int> local_row_;     ///< first owned row of a block, -1 when not owned

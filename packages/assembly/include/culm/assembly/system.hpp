@@ -228,6 +228,8 @@ class System {
   double project_position(model::State& state, const Solve& solve_mass);
 
   const Vector& residual() const { return residual_; }
+  /// Row of its largest force on this rank; -1 if there is none.
+  int largest_force_row() const { return largest_force_row_; }
   /// The tangent, or what was asked for in its place, of the last evaluation.
   const std::shared_ptr<const Matrix>& matrix() const { return matrix_view_; }
   /// Of its rows, see assembly::first_columns.
@@ -246,6 +248,10 @@ class System {
 
  private:
   std::vector<double> memory(model::Items which) const;
+  /// Rows of forces are those of nodes, the first ones.
+  int num_force_rows() const { return layout_.num_node_rows(); }
+  double find_largest_force();
+  bool is_force_row(std::size_t row) const { return row < index(num_force_rows()); }
   void restore_memory(std::span<const double> memory);
   void forget_reactions() { std::fill(reactions_.begin(), reactions_.end(), 0.0); }
   std::size_t memory_size() const;
@@ -295,9 +301,9 @@ class System {
   std::shared_ptr<const Matrix> matrix_view_;
   std::vector<int> first_columns_;
   Vector residual_;
+  int largest_force_row_ = -1;
   std::unique_ptr<GhostImport> ghosts_;  ///< if there are several ranks
   std::vector<int> diagonal_;            ///< place of the diagonal entry of each owned row
-  std::vector<bool> is_force_row_;
   Sampler sampler_;
   bool carries_residuals_ = false;
   /// By owned row: impulses [N s, N m s], or in statics forces that were noted [N, N m].
