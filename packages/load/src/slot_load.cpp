@@ -121,15 +121,22 @@ void SlotLoad::place(model::Placement placement, model::Form form) {
   form_ = form;
   has_tangent_ = has_tangent();  // the same on all ranks, whatever they keep
   free_.clear();
+  largest_dead_ = 0.0;
   others_.clear();
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     const Item& item = local(i);
-    if (is_free(item)) {
-      free_.push_back({i, item.nodes[0], nodes_.turns(item.nodes[0]),
-                       !item.constant.rightCols<3>().isZero(0.0), item.constant.col(0)});
-    } else {
+    if (!is_free(item)) {
       others_.push_back(i);
+      continue;
     }
+    const int node = item.nodes[0];
+    const Vec3 force = item.constant.col(0);
+    const bool turns = nodes_.turns(node);
+    const bool on_directors = !item.constant.rightCols<3>().isZero(0.0);
+    const bool is_dead = turns && !on_directors && force.allFinite();
+    const int row = is_dead ? placement_.scatter.whole_node_row(i, 0) : -1;
+    free_.push_back({static_cast<int>(i), node, row, turns, on_directors, force});
+    if (row >= 0) largest_dead_ = std::max(largest_dead_, force.lpNorm<Eigen::Infinity>());
   }
 }
 
@@ -143,9 +150,16 @@ Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Wa
                            model::Target& target) {
   const double factor = amplitude_.in_step(state, stencil);
   const bool tangent = has_tangent() && want == Want::residual_and_tangent;
-  Verdict verdict = Verdict::ok;
+  const double largest = largest_dead_ > 0.0 ? std::abs(factor) * largest_dead_ : 0.0;
+  Verdict verdict = std::isfinite(largest) ? Verdict::ok : Verdict::not_finite;
+  target.force_scale = std::max(target.force_scale, largest);
   for (const Free& item : free_) {
-    verdict = worse(verdict, assemble_free(item, state, stencil, factor, tangent, target));
+    if (item.row >= 0) {
+      double* out = target.residual.data() + item.row;
+      for (int c = 0; c < 3; ++c) out[c] -= factor * item.force[c];
+    } else {
+      verdict = worse(verdict, assemble_free(item, state, stencil, factor, tangent, target));
+    }
   }
   for (const std::size_t i : others_) {
     const Verdict one =
@@ -158,7 +172,7 @@ Verdict SlotLoad::assemble(const model::State& state, const Stencil& stencil, Wa
 }
 
 Eigen::Map<const model::NodeSlots> SlotLoad::forces_of(const Free& item) const {
-  return Eigen::Map<const model::NodeSlots>(local(item.local).constant.data());
+  return Eigen::Map<const model::NodeSlots>(local(index(item.local)).constant.data());
 }
 
 // What assemble_item does, without looking for masters, slots of other nodes and signals.
@@ -181,13 +195,13 @@ Verdict SlotLoad::assemble_free(const Free& item, const model::State& state, con
   }
   if (!std::isfinite(residual.sum())) return Verdict::not_finite;
   target.force_scale = std::max(target.force_scale, residual.lpNorm<Eigen::Infinity>());
-  placement_.scatter.add_residual(item.local, 0, residual.data(), target);
+  placement_.scatter.add_residual(index(item.local), 0, residual.data(), target);
   if (!tangent || !has_arms) return Verdict::ok;
   model::Arms<4> arms{model::NodeTable::slots(state.next, item.node)};
   arms.slots.col(0).setZero();
   RowMat<6, 6> block = RowMat<6, 6>::Zero();
   model::NullSpace::add_turning(-factor * forces_of(item), arms, stencil.theta, block);
-  placement_.scatter.add_tangent(item.local, 0, 0, block, target);
+  placement_.scatter.add_tangent(index(item.local), 0, 0, block, target);
   return Verdict::ok;
 }
 
@@ -250,9 +264,9 @@ model::StepWork SlotLoad::step_work(const model::State& state, const Stencil& st
     add_item_work(f, ends, item.nodes, state, works, work);
   };
   for (const Free& item : free_) {
-    if (!placement_.owned[item.local]) continue;
+    if (!placement_.owned[index(item.local)]) continue;
     if (works) {
-      add(item.local);
+      add(index(item.local));
     } else {
       add_push(item, state, stencil.theta, factor, work);
     }

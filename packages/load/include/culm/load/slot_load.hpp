@@ -64,8 +64,9 @@ class SlotLoad final : public model::Batch, public model::Booked, public model::
 
   // A local item with constant forces on one node, which is no slave.
   struct Free {
-    std::size_t local;
+    int local;
     int node;
+    int row;            // of the force, where it turns nothing and meets no support; else -1
     bool turns;         // its directors turn with it
     bool on_directors;  // some forces act there
     Vec3 force;         // on its position
@@ -94,6 +95,7 @@ class SlotLoad final : public model::Batch, public model::Booked, public model::
   model::Form form_ = model::Form::null_space;
   std::optional<bool> has_tangent_;  ///< once placed
   std::vector<Free> free_;
+  double largest_dead_ = 0.0;        // component of a force with a row
   std::vector<std::size_t> others_;  // local items
 };
 

@@ -57,6 +57,13 @@ class Scatter {
   /// Appends an item. @param offsets run offsets within a row, one per pair (a, b), row by row
   void add_item(std::span<const Rows> rows, std::span<const int> offsets);
 
+  /// First of the six rows of block a of an item, where it is a node of this rank and no support
+  /// takes any away; -1 otherwise.
+  int whole_node_row(std::size_t item, int a) const {
+    const Rows& rows = rows_[first_block_[item] + static_cast<std::size_t>(a)];
+    return rows.first >= 0 && is_node(*rows.shape) ? rows.first : -1;
+  }
+
   /// Adds the residual of block a of an item; `values` has at least the width of the block.
   void add_residual(std::size_t item, int a, const double* values, Target& target) const {
     const Rows& rows = rows_[first_block_[item] + static_cast<std::size_t>(a)];
