@@ -19,8 +19,9 @@ constexpr double roundings = 4.0;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// That are judged before those that memory is asked for.
-constexpr int rows_ahead = 36;
+// Blocks whose sizes are found, and rows that are judged, before those that memory is asked for.
+constexpr std::size_t blocks_ahead = 16;
+constexpr int rows_ahead = 72;
 
 // Largest sizes of the translations of a node; where supports take some of them away, what is left
 // feels the rounding of all.
@@ -38,8 +39,15 @@ class UnknownSizes {
   // Of all local columns, each of which is of a block.
   std::unique_ptr<double[]> all() const {
     auto sizes = std::make_unique_for_overwrite<double[]>(system_.layout().columns().size());
-    for (const Layout::LocalBlock& local : system_.layout().local_blocks()) {
-      put(local, sizes.get() + local.first_column);
+    const auto& blocks = system_.layout().local_blocks();
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      const int later = blocks[std::min(b + blocks_ahead, blocks.size() - 1)].block;
+      if (later < system_.model().nodes().size()) {  // blocks of nodes come first
+        const int place = model::NodeTable::offset(later);
+        fetch(point_.prev.data() + place, sizeof(Vec3));
+        fetch(point_.next.data() + place, sizeof(Vec3));
+      }
+      put(blocks[b], sizes.get() + blocks[b].first_column);
     }
     return sizes;
   }

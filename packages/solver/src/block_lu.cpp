@@ -445,12 +445,22 @@ void BlockLu::put_kept(std::span<double> x) const {
   }
 }
 
+// Asks the memory for what panels before this one keep.
+[[gnu::always_inline]] inline void BlockLu::fetch_kept_before(const BlockPlan::Panel& panel) const {
+  constexpr std::ptrdiff_t ahead = 8;
+  if (&panel - plan_.panels.data() < ahead) return;
+  const BlockPlan::Panel& then = *(&panel - ahead);
+  fetch(factors() + numbers_of_line * then.line_of_V,
+        index(then.size * then.width) * sizeof(double));
+}
+
 CULM_FOR_EACH_VECTOR_UNIT [[gnu::flatten]] void BlockLu::extend(std::span<double> x) {
   for (std::size_t place = x_.size() - index(kept_); place < x_.size(); ++place) {
     x_[place] = x[index(plan_.unknown[place])];
   }
   const auto panels = eliminated();
   for (auto panel = panels.rbegin(); panel != panels.rend(); ++panel) {
+    if (has_bench()) fetch_kept_before(*panel);
     with_sizes(*panel, [&](auto size, auto width) {
       substitute_back(*panel, size, width);
       put_solved(*panel, size, x);

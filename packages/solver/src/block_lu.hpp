@@ -101,6 +101,7 @@ class BlockLu {
   std::span<const BlockPlan::Panel> eliminated() const;
   BlockPlan::Panel before(const BlockPlan::Panel& panel) const;
   void fetch_before(const BlockPlan::Panel& panel);
+  void fetch_kept_before(const BlockPlan::Panel& panel) const;
   void fill_before(const BlockPlan::Panel& panel);
   double start_at(std::size_t place) const;
   bool eliminate(const BlockPlan::Panel& panel, double least);

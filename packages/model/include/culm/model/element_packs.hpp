@@ -128,11 +128,12 @@ class ElementPacks {
     for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
       const Lanes& lanes = nodes_[pack];
       gather(lanes, state, counts_start(stencil), stencil.inertia != 0.0);
-      fetch_pack(pack + 1, read);
       packs_[pack].evaluate(motion_, is_extrapolated_ ? stress_[pack].data() : nullptr, stencil,
                             with_tangent, sum_);
       take(with_tangent);
       for_lanes(pack, [&](std::size_t i, int l) {
+        // a part after each element, as memory keeps those waiting that ask for much at once
+        fetch_lane(pack + 2, index(l), read);
         const Nodes& nodes = lanes[index(l)];
         Contribution& c = contributions_[index(l)];
         for (int a = 0; a < N; ++a) {
@@ -166,19 +167,26 @@ class ElementPacks {
   // one before is evaluated. Inlined, as compilers leave a function out that does nothing else.
   [[gnu::always_inline]] void fetch_pack(std::size_t pack,
                                          const std::array<const Coordinates*, 3>& all_read) const {
-    constexpr std::size_t share = sizeof(typename E::Pack) / pack_lanes;
+    for (std::size_t l = 0; l < pack_lanes; ++l) fetch_lane(pack, l, all_read);
+  }
+
+  // The same of one element, and its share of what belongs to all.
+  [[gnu::always_inline]] void fetch_lane(std::size_t pack, std::size_t l,
+                                         const std::array<const Coordinates*, 3>& all_read) const {
     if (pack >= packs_.size()) return;
-    for (std::size_t l = 0; l < pack_lanes; ++l) {
-      fetch(reinterpret_cast<const char*>(&packs_[pack]) + l * share, share);
-      for (const Coordinates* q : all_read) {
-        if (q == nullptr) continue;
-        for (const int node : nodes_[pack][l]) {
-          fetch(q->data() + NodeTable::offset(node), 12 * sizeof(double));
-        }
+    const auto fetch_share = [l](const auto& of_all) __attribute__((always_inline)) {
+      constexpr std::size_t share = sizeof(of_all) / pack_lanes;
+      fetch(reinterpret_cast<const char*>(&of_all) + l * share, share);
+    };
+    fetch_share(packs_[pack]);
+    if (is_extrapolated_) fetch_share(stress_[pack]);
+    for (const Coordinates* q : all_read) {
+      if (q == nullptr) continue;
+      for (const int node : nodes_[pack][l]) {
+        fetch(q->data() + NodeTable::offset(node), 12 * sizeof(double));
       }
     }
-    packs_[pack].fetch_shared(packs_[pack - 1]);
-    if (is_extrapolated_) fetch(&stress_[pack], sizeof(Packs<num_values>));
+    if (l == 0) packs_[pack].fetch_shared(packs_[pack - 1]);
   }
 
   static void gather(const Lanes& lanes, const Coordinates& q, Packs<12 * N>& slots) {
