@@ -24,7 +24,9 @@ class Predicted {
     guess.prev = guess.next;
     guess.next = top.state.next;
     double error = 0.0;
-    for (const Vec6& motion : top.system->motions(guess)) {
+    assembly::System::Motions motions(top.system->num_motions());
+    top.system->motions(guess, 0, motions);
+    for (const Vec6& motion : motions) {
       error = std::max(error, motion.lpNorm<Eigen::Infinity>());
     }
     predictor.accept(top.state, h_);

@@ -106,7 +106,9 @@ void System::find_needed_nodes() {
     is_local[index(local.block)] = true;
     const model::Block block = unknowns.block(local.block);
     const bool moves = block.kind == model::BlockKind::node && block.shape.active > 0;
-    if (local.owned && moves) ++num_own_motions_;
+    if (!moves) continue;
+    moving_nodes_.push_back(block.owner);
+    if (local.owned) ++num_own_motions_;
   }
   for (int node = 0; node < model_.nodes().size(); ++node) {
     is_needed_.push_back(is_local[index(unknowns.node_block(node))]);

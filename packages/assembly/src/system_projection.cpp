@@ -14,11 +14,6 @@ namespace {
 // Share of the largest change of a velocity that is rounding.
 constexpr double negligible = 1e-9;
 
-// Rates of the six unknowns of a node at the start of the step.
-Vec6 velocity_of(const model::NodeTable& nodes, const model::State& state, int node) {
-  return nodes.unknown_motion(node, model::NodeTable::slots(state.velocity, node), state.prev);
-}
-
 }  // namespace
 
 double System::project_position(model::State& state, const Solve& solve_mass) {
@@ -62,17 +57,6 @@ double System::project_position(model::State& state, const Solve& solve_mass) {
   return comm_.max(largest);
 }
 
-// Calls action(node, shape) for nodes here that have unknowns of their own.
-template <class Action>
-void System::each_moving_node(Action action) const {
-  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block block = model_.unknowns().block(local.block);
-    if (block.kind == model::BlockKind::node && block.shape.active > 0) {
-      action(block.owner, block.shape);
-    }
-  }
-}
-
 NodeMotions System::node_motions() const {
   const model::Coordinates& q =
       tangent_point_.empty() ? model_.nodes().reference() : tangent_point_;
@@ -109,35 +93,32 @@ NodeMotions System::node_motions() const {
   return motions;
 }
 
-System::Motions System::motions(const model::State& state) const {
-  std::vector<int> nodes;
-  nodes.reserve(layout_.local_blocks().size());
-  each_moving_node([&](int node, const model::BlockShape&) { nodes.push_back(node); });
-  Motions motions(nodes.size());
+void System::motions(const model::State& state, std::size_t first, std::span<Vec6> motions) const {
+  const auto nodes = std::span(moving_nodes_).subspan(first, motions.size());
   model_.nodes().motions(nodes, state.prev, state.next, motions);
-  return motions;
 }
 
-System::Motions System::velocities(const model::State& state) const {
-  Motions velocities;
-  velocities.reserve(layout_.local_blocks().size());
-  each_moving_node([&](int node, const model::BlockShape&) {
-    velocities.push_back(velocity_of(model_.nodes(), state, node));
-  });
-  return velocities;
+void System::velocities(const model::State& state, std::size_t first,
+                        std::span<Vec6> velocities) const {
+  const auto nodes = std::span(moving_nodes_).subspan(first, velocities.size());
+  model_.nodes().unknown_motions(nodes, state.velocity, state.prev, velocities);
 }
 
-void System::move_nodes(model::State& state, const Motions& motions) const {
-  {
-    NodeMoves moves(model_.nodes(), state.next);
-    auto motion = motions.begin();
-    each_moving_node([&](int node, const model::BlockShape& shape) {
-      Vec6 u = *motion++;
-      for (int i = 0; i < 6 && shape.width == 6; ++i) {
-        if (shape.position[index(i)] < 0) u[i] = 0.0;
+void System::move_nodes(model::State& state, const MotionSource& tell) const {
+  const model::UnknownTable& unknowns = model_.unknowns();
+  std::array<Vec6, 128> some;
+  for (std::size_t first = 0; first < moving_nodes_.size(); first += some.size()) {
+    const std::size_t count = std::min(some.size(), moving_nodes_.size() - first);
+    const auto nodes = std::span(moving_nodes_).subspan(first, count);
+    const auto motions = std::span(some).first(count);
+    tell(first, motions);
+    for (std::size_t i = 0; i < count; ++i) {
+      const model::BlockShape& shape = unknowns.block(unknowns.node_block(nodes[i])).shape;
+      for (int c = 0; c < 6 && shape.width == 6; ++c) {
+        if (shape.position[index(c)] < 0) motions[i][c] = 0.0;
       }
-      moves.add(node, u);
-    });
+    }
+    model_.nodes().move(nodes, motions, state.next);
   }
   for (int slave : slaves_) model_.nodes().follow_master(slave, state.next);
   if (needs_all_nodes_) complete(state.next);
@@ -156,14 +137,11 @@ void System::save(const Motions& motions, std::string_view name, Snapshot& snaps
   const auto add_still = [&](auto end) {
     for (; node != end; ++node) own.insert(own.end(), 6, 0.0);
   };
-  std::size_t i = 0;
-  each_moving_node([&](int moving, const model::BlockShape&) {
-    if (i == num_own_motions_) return;
-    add_still(std::find(node, owned_nodes_.end(), moving));
+  for (std::size_t i = 0; i < num_own_motions_; ++i) {
+    add_still(std::find(node, owned_nodes_.end(), moving_nodes_[i]));
     own.insert(own.end(), motions[i].begin(), motions[i].end());
     ++node;
-    ++i;
-  });
+  }
   add_still(owned_nodes_.end());
   save_nodes(std::move(own), 6, name, snapshot);
 }
@@ -179,9 +157,9 @@ System::Motions System::restore_motions(const Snapshot& snapshot, std::string_vi
   }
   numbers.resize(6 * index(model_.nodes().size()));
   comm_.broadcast(std::span<double>(numbers));
-  each_moving_node([&](int node, const model::BlockShape&) {
+  for (const int node : moving_nodes_) {
     motions.push_back(Eigen::Map<const Vec6>(numbers.data() + 6 * node));
-  });
+  }
   return motions;
 }
 
@@ -258,8 +236,8 @@ VelocityFit System::project_velocity(model::State& state, double probe, const So
   };
   each_unknown([&](const Layout::LocalBlock& local, const model::Block& block) {
     if (!local.owned) return;
-    const Vec6 rigid = velocity_of(model_.nodes(), state, block.owner);
     const auto slots = model::NodeTable::slots(state.velocity, block.owner);
+    const Vec6 rigid = model_.nodes().unknown_motion(block.owner, slots, state.prev);
     for (int i = 0; i < block.shape.width; ++i) {
       const int at = block.shape.position[index(i)];
       if (at >= 0) u[index(local.first_column + at)] = null_space ? rigid[i] : slots.data()[i];

@@ -29,6 +29,12 @@ void build(model::Model& model, Form form) {
 
 class SystemTest : public ::testing::TestWithParam<Form> {};
 
+System::Motions motions_of(const System& system, const model::State& state) {
+  System::Motions motions(system.num_motions());
+  system.motions(state, 0, motions);
+  return motions;
+}
+
 TEST_P(SystemTest, DistributedSystemEqualsDenseAssembly) {
   model::Model reference_model;
   build(reference_model, GetParam());
@@ -162,12 +168,12 @@ TEST_P(SystemTest, EvaluatesTheSameWithoutNodesAndItemsOfOthers) {
   };
   const std::vector<double> before = residual();
   const double energy = system.strain_energy(state.next);
-  const System::Motions motions = system.motions(state);
+  const System::Motions motions = motions_of(system, state);
   system.forget_others(state);
   system.forget_other_items();
   EXPECT_EQ(residual(), before);
   EXPECT_EQ(system.strain_energy(state.next), energy);
-  EXPECT_EQ(system.motions(state), motions);
+  EXPECT_EQ(motions_of(system, state), motions);
   const auto others = static_cast<std::size_t>(model.nodes().size()) - system.owned_nodes().size();
   if (system.comm().size() == 1) {
     EXPECT_EQ(others, 0U);
@@ -201,7 +207,7 @@ TEST_P(SystemTest, SnapshotsTakeNodesAndMotionsThereAndBack) {
   for (const Snapshot::Use use : {Snapshot::Use::files, Snapshot::Use::memory}) {
     model::State state = expected;
     if (use == Snapshot::Use::files) system.forget_others(state);
-    const System::Motions motions = system.motions(expected);
+    const System::Motions motions = motions_of(system, expected);
     Snapshot snapshot(use);
     system.save(state, snapshot);
     system.save(motions, "motions", snapshot);
@@ -252,7 +258,8 @@ TEST_P(SystemTest, TheRowOfTheLargestForceIsKnown) {
     ASSERT_GE(row, 0);
     ASSERT_LT(row, system.layout().num_node_rows());
     const auto residual = std::as_const(system.residual()).values();
-    EXPECT_EQ(std::abs(residual[static_cast<std::size_t>(row)]), found.force_residual);
+    const double largest = std::abs(residual[static_cast<std::size_t>(row)]);
+    EXPECT_EQ(system.comm().max(largest), found.force_residual);
   }
 }
 

@@ -83,4 +83,20 @@ CULM_FOR_EACH_VECTOR_UNIT void find_motions(const Packs<12>& from, const Packs<1
   }
 }
 
+CULM_FOR_EACH_VECTOR_UNIT void find_rates(const Packs<12>& slots, const Packs<12>& velocities,
+                                          Packs<6>& rates) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    rates[c] = velocities[c];
+    rates[3 + c] = Pack{};
+  }
+  for (std::size_t at = directors; at < 12; at += 3) {
+    const Pack* d = slots.data() + at;
+    const Pack* w = velocities.data() + at;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t i = (c + 1) % 3, j = (c + 2) % 3;
+      rates[3 + c] += 0.5 * (d[i] * w[j] - d[j] * w[i]);
+    }
+  }
+}
+
 }  // namespace culm

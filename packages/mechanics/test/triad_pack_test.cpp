@@ -61,5 +61,22 @@ TEST_F(TriadPack, FindsTheMotionBetween) {
   }
 }
 
+TEST_F(TriadPack, FindsRatesOfRigidMotions) {
+  Packs<12> velocities;
+  for (int l = 0; l < pack_lanes; ++l) {
+    const Vec6 motion = motion_of(l);
+    for (int c = 0; c < 3; ++c) velocities.of(l, c) = motion[c];
+    for (int i = 1; i < 4; ++i) {
+      const Vec3 w = motion.tail<3>().cross(Vec3(triad_of(l).col(i - 1)));
+      for (int c = 0; c < 3; ++c) velocities.of(l, 3 * i + c) = w[c];
+    }
+  }
+  Packs<6> rates;
+  find_rates(start, velocities, rates);
+  for (int l = 0; l < pack_lanes; ++l) {
+    for (int c = 0; c < 6; ++c) EXPECT_NEAR(rates.of(l, c), motion_of(l)[c], 2e-15) << "lane " << l;
+  }
+}
+
 }  // namespace
 }  // namespace culm

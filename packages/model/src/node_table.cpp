@@ -1,3 +1,4 @@
+#include <culm/math/fetch.hpp>
 #include <culm/math/rotation.hpp>
 #include <culm/mechanics/triad_pack.hpp>
 #include <culm/model/node_table.hpp>
@@ -9,6 +10,9 @@
 
 namespace culm::model {
 namespace {
+
+// Nodes whose coordinates are asked for before they are read.
+constexpr std::size_t nodes_ahead = 16;
 
 // Which of some nodes are in a pack.
 using Lanes = std::array<std::size_t, pack_lanes>;
@@ -39,9 +43,31 @@ void in_packs(const NodeTable& table, std::span<const int> nodes, Alone alone, T
 void gather(std::span<const int> nodes, const Lanes& lanes, const Coordinates& q,
             Packs<12>& slots) {
   std::array<const double*, pack_lanes> rows{};
-  std::ranges::transform(lanes, rows.begin(),
-                         [&](std::size_t i) { return q.data() + NodeTable::offset(nodes[i]); });
+  for (std::size_t l = 0; l < rows.size(); ++l) {
+    rows[l] = q.data() + NodeTable::offset(nodes[lanes[l]]);
+    const std::size_t later = std::min(lanes[l] + nodes_ahead, nodes.size() - 1);
+    fetch(q.data() + NodeTable::offset(nodes[later]), 12 * sizeof(double));
+  }
   to_lanes(rows, 12, slots.data());
+}
+
+// The six unknowns of each node that a function finds from two kinds of coordinates.
+template <class Together, class Alone>
+void find_in_packs(const NodeTable& table, std::span<const int> nodes, const Coordinates& first,
+                   const Coordinates& second, Together find, Alone find_alone,
+                   std::span<Vec6> found) {
+  const auto together = [&](const Lanes& lanes, std::size_t count) {
+    Packs<12> a, b;
+    gather(nodes, lanes, first, a);
+    gather(nodes, lanes, second, b);
+    Packs<6> u;
+    find(a, b, u);
+    for (std::size_t l = 0; l < count; ++l) {
+      for (int c = 0; c < 6; ++c) found[lanes[l]][c] = u.of(static_cast<int>(l), c);
+    }
+  };
+  in_packs(
+      table, nodes, [&](std::size_t i) { found[i] = find_alone(nodes[i]); }, together);
 }
 
 }  // namespace
@@ -139,19 +165,9 @@ void NodeTable::move(std::span<const int> nodes, std::span<const Vec6> increment
 
 void NodeTable::motions(std::span<const int> nodes, const Coordinates& from, const Coordinates& to,
                         std::span<Vec6> motions) const {
-  const auto find_motions_of = [&](const Lanes& lanes, std::size_t count) {
-    Packs<12> start, end;
-    gather(nodes, lanes, from, start);
-    gather(nodes, lanes, to, end);
-    Packs<6> u;
-    find_motions(start, end, u);
-    for (std::size_t l = 0; l < count; ++l) {
-      for (int c = 0; c < 6; ++c) motions[lanes[l]][c] = u.of(static_cast<int>(l), c);
-    }
-  };
-  in_packs(
-      *this, nodes, [&](std::size_t i) { motions[i] = motion(nodes[i], from, to); },
-      find_motions_of);
+  find_in_packs(
+      *this, nodes, from, to, find_motions, [&](int node) { return motion(node, from, to); },
+      motions);
 }
 
 NodeSlots NodeTable::slot_motion(int node, const Vec6& u, const Coordinates& q) const {
@@ -178,6 +194,13 @@ Vec6 NodeTable::unknown_motion(int node, const NodeSlots& v, const Coordinates& 
   u.tail<3>().setZero();
   for (int i = 1; i < 4; ++i) u.tail<3>() += 0.5 * Vec3(s.col(i)).cross(Vec3(v.col(i)));
   return u;
+}
+
+void NodeTable::unknown_motions(std::span<const int> nodes, const Coordinates& v,
+                                const Coordinates& q, std::span<Vec6> rates) const {
+  find_in_packs(
+      *this, nodes, q, v, find_rates,
+      [&](int node) { return unknown_motion(node, slots(v, node), q); }, rates);
 }
 
 }  // namespace culm::model

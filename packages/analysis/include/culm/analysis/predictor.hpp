@@ -1,6 +1,7 @@
 /// Where the iteration of a time step begins.
 #pragma once
 
+#include <culm/analysis/velocity_rows.hpp>
 #include <culm/assembly/system.hpp>
 #include <culm/base/snapshot.hpp>
 
@@ -42,8 +43,8 @@ class Predictor {
   };
 
   int plain() const { return past_.size() > 1 && reversal_ < 0.0 ? 2 : 0; }
-  double measure_reversal(const Motions& start, const MeanVelocity& now) const;
-  std::vector<double> weights(int points, double time) const;
+  double reversal_of(const VelocityChanges& changes) const;
+  GuessWeights weights(int points, double time) const;
 
   assembly::System& system_;
   std::deque<MeanVelocity> past_;  ///< the last one first

@@ -172,14 +172,17 @@ class System {
   /// Motions of the six unknowns of nodes, or their rates: of those nodes that this rank needs and
   /// that have unknowns of their own, its own ones first and each part in the order of the model.
   using Motions = std::vector<Vec6>;
+  std::size_t num_motions() const { return moving_nodes_.size(); }
   /// How many of them belong to nodes of this rank.
   std::size_t num_own_motions() const { return num_own_motions_; }
-  /// From the start of the step to state.next [m, rad].
-  Motions motions(const model::State& state) const;
+  /// Those from number `first` on, from the start of the step to state.next [m, rad].
+  void motions(const model::State& state, std::size_t first, std::span<Vec6> motions) const;
   /// At the start of the step [m/s, rad/s].
-  Motions velocities(const model::State& state) const;
-  /// Moves state.next by motions, except where supports hold it.
-  void move_nodes(model::State& state, const Motions& motions) const;
+  void velocities(const model::State& state, std::size_t first, std::span<Vec6> velocities) const;
+  /// Tells motions from number `first` on.
+  using MotionSource = std::function<void(std::size_t first, std::span<Vec6> motions)>;
+  /// Moves state.next by motions, except where supports hold it; asks for some after others.
+  void move_nodes(model::State& state, const MotionSource& tell) const;
   /// Writes motions and takes them back, as numbers of all nodes where the snapshot is for files;
   /// collective there.
   void save(const Motions& motions, std::string_view name, Snapshot& snapshot) const;
@@ -274,8 +277,6 @@ class System {
   std::size_t first_entry() const;
   void restore_carried(const std::vector<double>& all);
   std::vector<double> drive_speed(model::State& state, double probe);
-  template <class Action>
-  void each_moving_node(Action action) const;
   ColumnValues column_values(const Vector& increment);
 
   model::Model& model_;
@@ -290,9 +291,10 @@ class System {
   std::array<std::optional<Ledger::Round>, 3> evaluations_;
   std::optional<Ledger::Round> extrapolation_;
   Ledger::Id update_effect_;
-  bool needs_all_nodes_ = false;  ///< on all ranks, up to date in each evaluation
-  std::vector<int> slaves_;       ///< whose masters this rank needs
-  std::vector<bool> is_needed_;   ///< by node
+  bool needs_all_nodes_ = false;   ///< on all ranks, up to date in each evaluation
+  std::vector<int> slaves_;        ///< whose masters this rank needs
+  std::vector<bool> is_needed_;    ///< by node
+  std::vector<int> moving_nodes_;  ///< whose motions are told
   std::size_t num_own_motions_ = 0;
   std::vector<int> owned_nodes_;
   std::vector<double> reactions_;           ///< owned ones

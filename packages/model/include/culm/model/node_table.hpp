@@ -85,6 +85,9 @@ class NodeTable {
   /// The rates of the six unknowns that belong to slot rates `v` at `q`, for a triad v and
   /// omega = 1/2 sum_i d_i x w_i. @source formulation 1.1
   Vec6 unknown_motion(int node, const NodeSlots& v, const Coordinates& q) const;
+  /// The same for many nodes, which is faster. @param rates  one for each
+  void unknown_motions(std::span<const int> nodes, const Coordinates& v, const Coordinates& q,
+                       std::span<Vec6> rates) const;
 
  private:
   static std::size_t index(int node) { return static_cast<std::size_t>(node); }
