@@ -57,42 +57,42 @@ template <class Action>
 CULM_FOR_EACH_VECTOR_UNIT void compare_guesses(const VelocityRows& rows, std::size_t num_nodes,
                                                const std::array<GuessWeights, max_past>& weights,
                                                GuessErrors& errors) {
-  each_row(
-      rows,
-      num_nodes, [&](const VelocityRows& some, std::size_t first) __attribute__((always_inline)) {
-        for (std::size_t j = 0; j < num_packs; ++j) {
-          const std::size_t at = first + pack_lanes * j;
-          const Pack mean = pack_at(some.mean, at);
-          Pack error = pack_at(some.start, at) - mean;
-          for (std::size_t k = 0; k < some.num_past; ++k) {
-            fetch(some.past[k] + at + numbers_ahead, sizeof(Pack));
-          }
-          for (std::size_t p = 0;; ++p) {
-            Pack& largest = errors[p][j];
-            error = error < 0.0 ? -error : error;
-            largest = error > largest ? error : largest;
-            if (p == some.num_past) break;
-            error = -mean;
-            for (std::size_t k = 0; k <= p; ++k) error += weights[p][k] * pack_at(some.past[k], at);
-          }
-        }
-      });
+  const auto compare_row = [&](const VelocityRows& some, std::size_t first)
+      __attribute__((always_inline)) {
+    for (std::size_t j = 0; j < num_packs; ++j) {
+      const std::size_t at = first + pack_lanes * j;
+      const Pack mean = pack_at(some.mean, at);
+      Pack error = pack_at(some.start, at) - mean;
+      for (std::size_t k = 0; k < some.num_past; ++k) {
+        fetch(some.past[k] + at + numbers_ahead, sizeof(Pack));
+      }
+      for (std::size_t p = 0;; ++p) {
+        Pack& largest = errors[p][j];
+        error = error < 0.0 ? -error : error;
+        largest = error > largest ? error : largest;
+        if (p == some.num_past) break;
+        error = -mean;
+        for (std::size_t k = 0; k <= p; ++k) error += weights[p][k] * pack_at(some.past[k], at);
+      }
+    }
+  };
+  each_row(rows, num_nodes, compare_row);
 }
 
 CULM_FOR_EACH_VECTOR_UNIT void add_changes(const VelocityRows& rows, std::size_t num_nodes,
                                            VelocityChanges& changes) {
-  each_row(
-      rows,
-      num_nodes, [&](const VelocityRows& some, std::size_t first) __attribute__((always_inline)) {
-        for (std::size_t j = 0; j < num_packs; ++j) {
-          const std::size_t at = first + pack_lanes * j;
-          const Pack before = pack_at(some.start, at) - pack_at(some.past[0], at);
-          const Pack after = pack_at(some.mean, at) - pack_at(some.start, at);
-          changes.before[j] += before * before;
-          changes.after[j] += after * after;
-          changes.both[j] += before * after;
-        }
-      });
+  const auto add_row = [&](const VelocityRows& some, std::size_t first)
+      __attribute__((always_inline)) {
+    for (std::size_t j = 0; j < num_packs; ++j) {
+      const std::size_t at = first + pack_lanes * j;
+      const Pack before = pack_at(some.start, at) - pack_at(some.past[0], at);
+      const Pack after = pack_at(some.mean, at) - pack_at(some.start, at);
+      changes.before[j] += before * before;
+      changes.after[j] += after * after;
+      changes.both[j] += before * after;
+    }
+  };
+  each_row(rows, num_nodes, add_row);
 }
 
 }  // namespace culm::analysis

@@ -347,7 +347,7 @@ double System::find_largest_force() {
   for (std::size_t first = 0; first < forces.size(); first += together) {
     const double size =
         largest_size(forces.subspan(first, std::min(together, forces.size() - first)));
-    if (size <= largest) continue;
+    if (!(size > largest)) continue;  // nor where none is a number
     largest = size;
     from = first;
   }
