@@ -1,9 +1,9 @@
 /// All elements of one type: the mechanics every element shares, written once.
 #pragma once
 
-#include <culm/math/small_product.hpp>
 #include <culm/model/batch.hpp>
 #include <culm/model/element_contribution.hpp>
+#include <culm/model/element_forces.hpp>
 #include <culm/model/element_motion.hpp>
 #include <culm/model/element_packs.hpp>
 #include <culm/model/element_store.hpp>
@@ -417,6 +417,12 @@ class ElementBatch final : public Batch,
     return Motion(nodes_, local(i).nodes, state, theta, form_);
   }
 
+  // Motion as long as it is used.
+  template <class Space>
+  ElementForces<Space, E> forces_of(std::size_t i, const Motion& motion) {
+    return {nodes_, local(i), motion, laws_, at(i, 0)};
+  }
+
   // Calls action(space) with the space of the form; shell nodes have the same six unknowns in both.
   template <class Action>
   Verdict in_space(Action action) const {
@@ -501,129 +507,25 @@ class ElementBatch final : public Batch,
   Verdict assemble_item(std::size_t i, const State& state, const Stencil& stencil, Want want,
                         Taken* taken, Target& target) {
     const Motion motion = motion_of(i, state, stencil.theta);
+    const auto forces = forces_of<Space>(i, motion);
     Contribution<Space> c(want == Want::residual_and_tangent);
-    Verdict verdict = Verdict::ok;
-    if constexpr (ActsOnUnknowns<E> && Space::form == Form::null_space) {
-      verdict = add_stress_to_unknowns(i, motion, stencil, taken, c);
-    } else {
-      verdict = add_stress(i, motion, stencil, taken, c);
-    }
-    if (stencil.inertia != 0.0) add_inertia(i, motion, state, stencil, c);
+    const Strain* const predicted = use_predicted_ ? &predicted_stress_[at(i, 0)] : nullptr;
+    const Verdict verdict = forces.add_stress(stencil, predicted, taken, c);
+    if (stencil.inertia != 0.0) forces.add_inertia(masses_[i], state, stencil, c);
     if (!std::isfinite(c.residual.sum())) return Verdict::not_finite;
     c.scatter(i, motion, stencil.theta, placement_.scatter, target);
     return verdict;
   }
 
-  // B(q_theta)^T S and its derivative; `taken`, where wanted, += what the step takes
-  template <class Space>
-  Verdict add_stress(std::size_t i, const Motion& motion, const Stencil& stencil, Taken* taken,
-                     Contribution<Space>& c) {
-    constexpr int W = Space::width * N;
-    const E& element = local(i).element;
-    Verdict verdict = Verdict::ok;
-    Strain y;
-    Response<M> response;
-    response.wants_tangent = c.with_tangent;
-    Gradient<S, M> B;
-    RowMat<W, M> R;
-    for (int p = 0; p < E::num_points; ++p) {
-      element.strain(p, motion.next, y);
-      element.gradient(p, motion.mid, B);
-      verdict = worse(verdict, laws_.respond(element, p, at(i, p), y, stencil, response));
-      reduce<Space>(B, motion.arms_mid, R);
-      c.residual.noalias() += R.lazyProduct(response.stress);
-      if (taken) laws_.add_taken(element, p, at(i, p), y, stencil, &response, *taken);
-      if (!c.with_tangent) continue;
-
-      const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
-      Eigen::Map<Vec<3 * S>>(c.slot_force.data()).noalias() += B.lazyProduct(stress);
-      element.add_curvature(p, stencil.theta * stress, c.scalars);
-      RowMat<W, M> RD;
-      laws_.with_tangent(element, p, stencil, response, [&](const auto& C, double factor) {
-        multiply(R, C, RD);
-        RD *= factor;
-      });
-      if (stencil.theta != 1.0) {
-        element.gradient(p, motion.next, B);
-        reduce<Space>(B, motion.arms_next, R);
-      }
-      const RowMat<M, W> R_next = R.transpose();
-      multiply_add(RD, R_next, c.tangent);
-    }
-    return verdict;
-  }
-
-  // The same by products that the element knows how to do faster.
-  template <class Space>
-  Verdict add_stress_to_unknowns(std::size_t i, const Motion& motion, const Stencil& stencil,
-                                 Taken* taken, Contribution<Space>& c) {
-    const E& element = local(i).element;
-    Verdict verdict = Verdict::ok;
-    Strain y;
-    Response<M> response;
-    ItemSlots force = ItemSlots::Zero();
-    for (int p = 0; p < E::num_points; ++p) {
-      element.strain(p, motion.next, y);
-      verdict = worse(verdict, laws_.respond(element, p, at(i, p), y, stencil, response));
-      E::add_force(motion.mid, response.stress, force);
-      if (taken) laws_.add_taken(element, p, at(i, p), y, stencil, &response, *taken);
-      if (!c.with_tangent) continue;
-      const Strain& stress = use_predicted_ ? predicted_stress_[at(i, p)] : response.stress;
-      if (use_predicted_) E::add_force(motion.mid, stress, c.slot_force);
-      element.add_curvature(p, stencil.theta * stress, c.scalars);
-      laws_.with_tangent(element, p, stencil, response, [&](const auto& C, double factor) {
-        E::add_stiffness(motion.mid, motion.next, C, factor, c.tangent);
-      });
-    }
-    c.add_slot_force(force, motion);
-    if (!c.with_tangent) return verdict;
-    if (!use_predicted_) c.slot_force += force;
-    c.turn_tangent(motion, nodes_, local(i).nodes);
-    return verdict;
-  }
-
-  // R C_k R^T of one branch at the end of the step
+  // the tangent of one branch at the end of the step
   template <class Space>
   Verdict assemble_branch(std::size_t i, std::size_t branch, const State& state, Target& target) {
-    constexpr int W = Space::width * N;
-    const E& element = local(i).element;
     const Motion motion = motion_of(i, state, 1.0);
     Contribution<Space> c(true);
-    for (int p = 0; p < E::num_points; ++p) {
-      const RowMat<M, M> C = laws_.branch_stiffness(element, p, branch);
-      if constexpr (ActsOnUnknowns<E> && Space::form == Form::null_space) {
-        E::add_stiffness(motion.next, motion.next, C, 1.0, c.tangent);
-      } else {
-        Gradient<S, M> B;
-        RowMat<W, M> R, RC;
-        element.gradient(p, motion.next, B);
-        reduce<Space>(B, motion.arms_next, R);
-        multiply(R, C, RC);
-        const RowMat<M, W> R_transposed = R.transpose();
-        multiply_add(RC, R_transposed, c.tangent);
-      }
-    }
-    if constexpr (ActsOnUnknowns<E> && Space::form == Form::null_space) {
-      c.turn_tangent(motion, nodes_, local(i).nodes);
-    }
+    forces_of<Space>(i, motion).add_branch(branch, c);
     if (!std::isfinite(c.tangent.sum())) return Verdict::not_finite;
     c.scatter(i, motion, 1.0, placement_.scatter, target);
     return Verdict::ok;
-  }
-
-  // M a with a = inertia (q_next - q_prev) + offset
-  template <class Space>
-  void add_inertia(std::size_t i, const Motion& motion, const State& state, const Stencil& stencil,
-                   Contribution<Space>& c) {
-    const SlotMatrix<S>& mass = masses_[i];
-    ItemSlots force = gather(i, state.acceleration_offset);
-    force += stencil.inertia *
-             (motion.next - (stencil.theta == 1.0 ? gather(i, state.prev) : motion.prev));
-    force = inertia_force<S>(mass, force);
-    c.add_slot_force(force, motion);
-    if (!c.with_tangent) return;
-    c.slot_force += force;
-    c.scalars += stencil.inertia * mass;
   }
 
   // P^T M P at the end of the step
@@ -634,15 +536,6 @@ class ElementBatch final : public Batch,
     c.scalars = local(i).element.mass();
     c.scatter(i, motion, 1.0, placement_.scatter, target);
     return Verdict::ok;
-  }
-
-  template <class Space>
-  static void reduce(const Gradient<S, M>& B, const typename Motion::ItemArms& arms,
-                     RowMat<Space::width * N, M>& R) {
-    for (int a = 0; a < N; ++a) {
-      Space::reduce_rows(B.template middleRows<3 * K>(3 * K * a), arms[static_cast<std::size_t>(a)],
-                         R.template middleRows<Space::width>(Space::width * a));
-    }
   }
 
   Effect effect_;
