@@ -27,6 +27,11 @@ double larger(double a, double b) { return b > a || std::isnan(b) ? b : a; }
 
 double relative(double drift, double scale) { return scale > 0.0 ? drift / scale : drift; }
 
+bool holds_only_itself(const model::Model& model) {
+  return std::ranges::all_of(model.constraints(),
+                             [](const model::Constraint& c) { return c.is_internal; });
+}
+
 // Sizes of what structures store. What is warmed without resistance stores nothing in sum, but its
 // heat takes away what its strains bring, against forces of which the solver leaves its tolerance.
 double strain_sizes(const assembly::System& system, const model::Coordinates& q) {
@@ -40,7 +45,11 @@ double strain_sizes(const assembly::System& system, const model::Coordinates& q)
 }  // namespace
 
 Certificate::Certificate(const assembly::System& system, bool promises, bool shows_work)
-    : system_(system), promises_(promises), shows_work_(shows_work), books_(system, is_free()) {}
+    : system_(system),
+      promises_(promises),
+      shows_work_(shows_work),
+      is_free_(holds_only_itself(system.model())),
+      books_(system, is_free_) {}
 
 void Certificate::start(const model::State& state) {
   look_at(state);
@@ -85,7 +94,7 @@ void Certificate::add_work(const model::State& state, const Stencil& stencil,
   constraint_violation_ = larger(constraint_violation_, constraint_violation);
   // what came and went again between two comparisons is the measure of what they find
   largest_work_ = std::max(largest_work_, std::abs(work_.external) + std::abs(work_.drives));
-  if (!is_free()) return;
+  if (!is_free_) return;
   pushed_linear_ += stencil.step * books_.forces();
   pushed_angular_ += stencil.step * books_.moments();
   largest_linear_ = std::max(largest_linear_, (first_momentum_.linear + impulse_).norm());
@@ -101,7 +110,7 @@ void Certificate::add_blow(double work) {
 // What the model holds; of what is held itself, momenta say nothing.
 void Certificate::look_at(const model::State& state) {
   momentum_ = {};
-  if (is_free()) {
+  if (is_free_) {
     momentum_ = system_.momentum(state.next, state.velocity);
   } else {
     momentum_.kinetic_energy = system_.kinetic_energy(state.velocity);
@@ -219,12 +228,6 @@ double Certificate::angular_scale() const {
   return std::max({largest_angular_, system_.model().length() * linear_scale(), pushed_angular_});
 }
 
-bool Certificate::is_free() const {
-  const auto& constraints = system_.model().constraints();
-  return std::all_of(constraints.begin(), constraints.end(),
-                     [](const model::Constraint& c) { return c.is_internal; });
-}
-
 std::vector<Certificate::Amount> Certificate::amounts() const {
   if (!shows_work_) return {};
   const auto amount = [this](const char* name, double model::StepWork::*what) {
@@ -257,7 +260,7 @@ std::vector<std::pair<std::string, double>> Certificate::numbers() const {
   numbers.emplace_back("relative energy drift", relative(energy_drift_, energy_scale()));
   numbers.emplace_back("constraint drift", constraint_violation_);
   if (hidden_violation_) numbers.emplace_back("hidden constraint violation", *hidden_violation_);
-  if (is_free()) {
+  if (is_free_) {
     numbers.emplace_back("relative linear momentum drift", relative(linear_drift_, linear_scale()));
     numbers.emplace_back("relative angular momentum drift",
                          relative(angular_drift_, angular_scale()));
@@ -277,7 +280,7 @@ std::vector<Certificate::Line> Certificate::lines() const {
   const double moved = moved_by_rounding();
   std::vector<Line> lines = {{"energy balance", relative(energy_drift_, energy_scale()),
                               energy_promise, excuse(largest_energy() <= moved)}};
-  if (is_free()) {
+  if (is_free_) {
     // what stands in equilibrium may hold much energy, and has no momentum but that of rounding
     const double momentum = std::sqrt(2.0 * system_.model().mass() * moved);
     const bool rests = largest_kinetic_ <= moved && largest_linear_ <= momentum &&
@@ -319,7 +322,7 @@ std::string Certificate::text() const {
     text += "  work: not summed, as forces of this scheme do not act in the middle of steps\n";
   }
   for (const Line& one : lines()) {
-    if (one.name == "constraints" && !is_free()) {
+    if (one.name == "constraints" && !is_free_) {
       text += "  momenta: the model is held, so supports change them\n";
     }
     const char* verdict = holds(one.drift, one.promise) ? "kept" : "BROKEN";

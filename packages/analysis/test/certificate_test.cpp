@@ -95,13 +95,16 @@ TEST(Certificate, SeesEnergyAndMomentumThatAppearFromNowhere) {
 // A program may end a motion wherever it likes, also between two comparisons.
 TEST(Certificate, ComparesWhereAMotionEnds) {
   Motion chain(build_free_chain);
+  const auto kinetic_energy = [&] {
+    return chain.system->momentum(chain.state.next, chain.state.velocity).kinetic_energy;
+  };
+  const double at_start = kinetic_energy();
   chain.advance(0.05, 7);
   chain.stepper->finish();
-  const double there =
-      chain.system->momentum(chain.state.next, chain.state.velocity).kinetic_energy;
+  const double there = kinetic_energy();
+  EXPECT_NE(there, at_start);
   const Certificate& certificate = chain.stepper->certificate();
   EXPECT_DOUBLE_EQ(number(certificate, "kinetic energy"), there);
-  EXPECT_GT(number(certificate, "relative energy drift"), 0.0);
   EXPECT_EQ(certificate.broken(), "");
 }
 

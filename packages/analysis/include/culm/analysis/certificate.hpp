@@ -53,7 +53,7 @@ class Certificate {
   double largest_mean_speed() const;
 
   /// Whether nothing holds the model from outside, so that its momenta are kept.
-  bool is_free() const;
+  bool is_free() const { return is_free_; }
 
   /// The promises that do not hold, as "energy balance 2.1e-07 (kept up to 1e-09)"; empty if all
   /// do.
@@ -95,6 +95,7 @@ class Certificate {
   const assembly::System& system_;
   bool promises_;
   bool shows_work_;
+  bool is_free_;
   assembly::Energies first_, last_;
   model::Momentum first_momentum_, momentum_;
   Books books_;
