@@ -42,11 +42,11 @@ struct Simulation::Parts {
   Log log;
   double memory;  ///< of a machine, the same on all ranks [B]
   model::Processes processes = {comm.size(), comm.most_on_a_machine()};
+  Ledger ledger = {};  ///< before the phases, whose systems give it the rest when they end
   Findings findings = Findings(log);
   Imperfections imperfections = Imperfections(deck, catalogue.analyses.gives_shapes);
   Phases phases = Phases(catalogue, deck, imperfections, log, memory, processes);
   EarlierStates earlier = EarlierStates(deck.list("Analyses"));
-  Ledger ledger = {};
   std::size_t present = 0;                  ///< the analysis whose phase the state belongs to
   std::vector<double> first_memories = {};  ///< of what is watched, before any state
   std::vector<double> other_memories = {};  ///< from the run that the present analysis starts from

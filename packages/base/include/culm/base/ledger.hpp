@@ -81,7 +81,8 @@ class Ledger {
   /// that were: nothing is lost, and who is slow now and then has its part.
   class Round {
    public:
-    /// @param effects  in their order; one may come more than once
+    /// @param ledger  which must live longer @param effects  in their order; one may come more than
+    /// once
     Round(Ledger& ledger, std::vector<Id> effects);
     ~Round() { share_out(); }
     Round(const Round&) = delete;
