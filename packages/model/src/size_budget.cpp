@@ -12,11 +12,14 @@ namespace {
 
 // Measured on runs of squares and strips of 1000 to 40 000 elements, and of beams [B].
 constexpr double shell_element = 13e3;
-constexpr double beam_node = 5.5e3;
+constexpr double beam_node = 4.7e3;
 // of that, what every process has: places, numbers, meshes and what belongs to files
 constexpr double shell_element_whole = 3.5e3;
-constexpr double beam_node_whole = 0.9e3;
+constexpr double beam_node_whole = 0.45e3;
 constexpr double beam_node_factors = 1.5e3;
+// with twelve unknowns and six multipliers: what comes on top
+constexpr double beam_node_multipliers = 9e3;
+constexpr double beam_node_multipliers_factors = 5.7e3;
 constexpr double shell_element_grids = 7.1e3;  // of the iterative solver
 constexpr double layer_array = 1040.0;         // of one layer in one element
 constexpr double shell_eigenproblem = 7.5e3;
@@ -68,6 +71,10 @@ double SizeBudget::on_machine(double whole, double parts) const {
 void SizeBudget::take_beam(double elements, double nodes, const Where& where) {
   MemoryNeed need{nodes * on_machine(beam_node_whole, beam_node - beam_node_whole),
                   nodes * on_machine(0.0, beam_node_factors)};
+  if (demands_.has_multipliers) {
+    need.elements += nodes * on_machine(0.0, beam_node_multipliers);
+    need.factors += nodes * on_machine(0.0, beam_node_multipliers_factors);
+  }
   if (demands_.modes > 0) {
     need.modes = nodes * on_machine(mode_of_node * demands_.modes, beam_eigenproblem);
   }

@@ -245,6 +245,7 @@ model::SizeDemands demands_of(const Options& deck) {
   }
   // eigenproblems are solved with factors
   const std::string& solver = deck.list("Solver").text("Linear Solver");
+  demands.has_multipliers = deck.list("Solver").text("Form") == "Multipliers";
   demands.may_iterate = demands.modes == 0 && (solver == "Automatic" || solver == "Iterative");
   const Options& layers = deck.list("Output").list("Shell");
   demands.layer_arrays = (layers.flag("Stresses") ? 1 : 0) + (layers.flag("Strains") ? 1 : 0);

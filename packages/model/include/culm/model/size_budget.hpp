@@ -34,6 +34,7 @@ struct SizeDemands {
   double shown_layers = std::numeric_limits<double>::infinity();  ///< at most so many of each wall
   /// Whether a solver may iterate where factors are too large, so that they need not fit.
   bool may_iterate = false;
+  bool has_multipliers = false;  ///< whether constraints are equations, Form::multipliers
   Processes processes = {};
 };
 
