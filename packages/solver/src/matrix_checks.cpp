@@ -8,6 +8,8 @@
 #include "sum_of_lanes.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -153,6 +155,22 @@ double largest_entry(const CrsMatrix& A) {
     largest = std::max(largest, size);
   }
   return largest;
+}
+
+std::uint64_t fingerprint(const CrsMatrix& A) {
+  const auto add = [](std::uint64_t sum, std::uint64_t bits) {
+    constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio, odd
+    return (std::rotl(sum, 23) ^ bits) * golden;
+  };
+  const auto values = A.getLocalMatrixHost().values;
+  std::array<std::uint64_t, 4> sums{};  // side by side, which is faster
+  for (std::size_t k = 0; k < values.extent(0); ++k) {
+    std::uint64_t& sum = sums[k % sums.size()];
+    sum = add(sum, std::bit_cast<std::uint64_t>(values(k)));
+  }
+  std::uint64_t all = values.extent(0);
+  for (const std::uint64_t sum : sums) all = add(all, sum);
+  return all;
 }
 
 Teuchos::RCP<CrsMatrix> shifted_copy(const CrsMatrix& A, double shift) {

@@ -5,6 +5,7 @@
 #include <culm/assembly/tpetra.hpp>
 
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -50,6 +51,9 @@ double refine(double achieved, const Correct& correct, const Check& check, const
 
 /// Largest entry on this rank; infinite if one is not finite.
 double largest_entry(const assembly::CrsMatrix& A);
+/// A number that tells the values on this rank from others: equal ones have the same, others
+/// another one, but for one case in 2^64.
+std::uint64_t fingerprint(const assembly::CrsMatrix& A);
 
 /// What makes an exactly singular matrix invertible and is far below every eigenvalue of a sound
 /// one, over the largest entry.

@@ -8,6 +8,7 @@
 #include "symmetry_check.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -33,12 +34,19 @@ class MumpsSolver final : public LinearSolver {
 
   std::string name() const override { return "MUMPS"; }
 
-  // By the present values alone, so that what goes on where a run stopped decides alike. Hardly any
-  // analysis has matrices of both kinds, so one set of factors is held and not two.
+  // Not again what was factored last, as in linear models, or where a first iteration begins at the
+  // point that was searched for mechanisms. By the present values alone, so that what goes on where
+  // a run stopped decides alike. Hardly any analysis has matrices of both kinds, so one set of
+  // factors is held and not two.
   bool factor() override {
+    const std::uint64_t present = fingerprint(*matrix_);
+    if (comm_.max(factored_ == present ? 0.0 : 1.0) == 0.0) return true;
+    factored_.reset();
     if (!std::isfinite(size())) return false;
     const Symmetry symmetry = find_symmetry();
-    return (parts_ && parts_->factor(symmetry)) || factor_whole(symmetry);
+    if (!(parts_ && parts_->factor(symmetry)) && !factor_whole(symmetry)) return false;
+    factored_ = present;
+    return true;
   }
 
   LinearResidual solve(const Vector& b, Vector& x) override {
@@ -125,7 +133,8 @@ class MumpsSolver final : public LinearSolver {
   std::vector<int> place_;
   std::unique_ptr<MumpsParts> parts_;
   bool has_left_parts_ = false;
-  std::optional<Mumps> mumps_;  // of the symmetry of the last matrix
+  std::optional<Mumps> mumps_;             // of the symmetry of the last matrix
+  std::optional<std::uint64_t> factored_;  // fingerprint of what the factors are of, if they serve
   SymmetryCheck symmetry_;
   RootedVector rooted_;
   std::vector<double> whole_;  // a vector in global order, on the root

@@ -236,6 +236,33 @@ TEST_P(EachLinearSolver, NewValuesReplaceOldFactors) {
   EXPECT_LT(system.difference(solution, 0.5 * x), 1e-12);
 }
 
+TEST_P(EachLinearSolver, TheSameValuesAreFactoredAsBefore) {
+  const auto solver = make(GetParam(), system);
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(system.size(), -1.0, 2.0);
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(solver->factor());
+    Vector solution(system.rows());
+    solver->solve(system.distribute(system.dense() * x), solution);
+    EXPECT_LT(system.difference(solution, x), 1e-12);
+  }
+}
+
+// Signs alone, of which two undo each other in most sums.
+TEST_P(EachLinearSolver, OtherSignsAreOtherValues) {
+  const auto solver = make(GetParam(), system);
+  ASSERT_TRUE(solver->factor());
+  Eigen::MatrixXd other = system.dense();
+  for (const int row : {3, 7}) {
+    other(row, row) = -other(row, row);
+    system.set_entry(row, row, other(row, row));
+  }
+  ASSERT_TRUE(solver->factor());
+  const Eigen::VectorXd x = Eigen::VectorXd::Ones(system.size());
+  Vector solution(system.rows());
+  solver->solve(system.distribute(other * x), solution);
+  EXPECT_LT(system.difference(solution, x), 1e-12);
+}
+
 TEST_P(EachLinearSolver, SingularMatrixIsNoticedAndItsDirectionFound) {
   // row 5 becomes zero, so nothing resists a direction that the left kernel e_5 allows
   system.change([](long long row, long long, double& value) {
