@@ -597,6 +597,21 @@ CASES = [
             else "it is not on the page"),
         ranks=True,
     ),
+    Case(
+        "one of three loads on the clamp",
+        0,
+        args=RUN,
+        change=[('<ParameterList name="Loads">', '<ParameterList name="Loads">'
+                 + entry("into the clamp", Type="Force", Node="beam/first", Force="{0, 0, 1}")
+                 + entry("push", Type="Force", Node="beam/2", Force="{0, 1, 0}"))],
+        says=[IDLE % "Force 'into the clamp'"],
+        never=["'push'", "'tip force'"],
+        silent=False,
+        results="out",
+        last_level=1.0,
+        check=has_findings("idle load", grade=False),
+        ranks=True,
+    ),
     *(
         Case(
             f"a load on what only joints hold, {form}",

@@ -100,6 +100,57 @@ class HeldDirections {
   std::set<int> still_;  // nodes that cannot move at all
 };
 
+// The unknowns of a node that are solved for.
+using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
+
+// The rows of a node on this rank.
+struct NodeRows {
+  std::size_t first = 0;
+  int count = 0;
+  int node = 0;
+};
+
+// What a load does to a node.
+struct NodeForce {
+  std::size_t load = 0;
+  int node = 0;
+  Unknowns on_unknowns;
+};
+
+// Of all nodes of this rank, rising.
+std::vector<NodeRows> rows_of_nodes(const Layout& layout, const model::Model& model) {
+  std::vector<NodeRows> nodes;
+  for (const Layout::LocalBlock& local : layout.local_blocks()) {
+    if (!local.owned) continue;
+    const model::Block block = model.unknowns().block(local.block);
+    if (block.kind != model::BlockKind::node || block.shape.active == 0) continue;
+    nodes.push_back({index(local.first_column), block.shape.active, block.owner});
+  }
+  std::ranges::sort(nodes, {}, &NodeRows::first);
+  return nodes;
+}
+
+// Null for a row that is none of a node.
+const NodeRows* node_of_row(const std::vector<NodeRows>& nodes, std::size_t row) {
+  const auto after = std::ranges::upper_bound(nodes, row, {}, &NodeRows::first);
+  if (after == nodes.begin()) return nullptr;
+  const NodeRows& last = *std::prev(after);
+  return row < last.first + index(last.count) ? &last : nullptr;
+}
+
+// The first place from one on where a force is not zero; the size if there is none. One load of
+// many leaves nearly all at zero, so they are looked at side by side.
+std::size_t next_acting(std::span<const double> forces, std::size_t from) {
+  constexpr std::size_t together = 32;
+  for (; from + together <= forces.size(); from += together) {
+    bool acts = false;
+    for (std::size_t k = 0; k < together; ++k) acts |= forces[from + k] != 0.0;
+    if (acts) break;
+  }
+  while (from < forces.size() && forces[from] == 0.0) ++from;
+  return from;
+}
+
 // What forces on the unknowns of a node amount to; those on a director do so by its arm.
 Vec6 force_and_moment(const model::Model& model, int node, const model::NodeSlots& q,
                       const double* unknowns) {
@@ -128,30 +179,49 @@ void System::assemble_alone(model::Batch& load, const model::State& state,
 }
 
 LoadShare System::share_of(model::Batch& load, const model::State& state) const {
-  Vector forces(layout_.rows());
-  const auto residual = forces.values();
-  std::vector<double> taken(reactions_.size(), 0.0);
-  assemble_alone(load, state, residual, taken);
-  LoadShare share;
-  for (const double force : taken) share.whole = std::max(share.whole, std::abs(force));
-  for (const double force : residual) share.whole = std::max(share.whole, std::abs(force));
-  share.whole = comm_.max(share.whole);
-  if (share.whole == 0.0) return share;  // it does not act now
+  model::Batch* const alone = &load;
+  return shares_of({&alone, 1}, state).front();
+}
+
+std::vector<LoadShare> System::shares_of(std::span<model::Batch* const> loads,
+                                         const model::State& state) const {
+  const std::vector<NodeRows> nodes = rows_of_nodes(layout_, model_);
+  std::vector<double> whole(loads.size(), 0.0), moving(loads.size(), 0.0);
+  std::vector<NodeForce> forces;
+  std::vector<double> residual(layout_.rows().size(), 0.0), taken(reactions_.size(), 0.0);
+  for (std::size_t l = 0; l < loads.size(); ++l) {
+    assemble_alone(*loads[l], state, residual, taken);
+    const auto note = [&](double& force) {
+      whole[l] = std::max(whole[l], std::abs(force));
+      force = 0.0;  // for the next load
+    };
+    for (std::size_t at = 0; (at = next_acting(taken, at)) < taken.size();) note(taken[at]);
+    for (std::size_t row = 0; (row = next_acting(residual, row)) < residual.size();) {
+      std::span<double> rows(&residual[row], 1);
+      if (const NodeRows* node = node_of_row(nodes, row)) {
+        rows = std::span(residual).subspan(node->first, index(node->count));
+        forces.push_back({l, node->node, Eigen::Map<const Unknowns>(rows.data(), node->count)});
+      }
+      for (double& force : rows) note(force);
+    }
+  }
+  comm_.max(whole);
+  if (std::ranges::all_of(whole, [](double force) { return force == 0.0; })) {
+    return std::vector<LoadShare>(loads.size());  // none acts now
+  }
   model::Coordinates q = state.next;
   if (!model_.equations().empty()) complete(q);  // joints lead to what is held on other ranks
   const HeldDirections held(model_, q);
-  for (const Layout::LocalBlock& local : layout_.local_blocks()) {
-    const model::Block block = model_.unknowns().block(local.block);
-    if (!local.owned || block.kind != model::BlockKind::node || block.shape.active == 0) continue;
-    Eigen::VectorXd f =
-        Eigen::Map<const Eigen::VectorXd>(residual.data() + local.first_column, block.shape.active);
-    if (const Eigen::MatrixXd* directions = held.of(block.owner)) {
-      f -= *directions * directions->colPivHouseholderQr().solve(f);
+  for (NodeForce& force : forces) {
+    if (const Eigen::MatrixXd* directions = held.of(force.node)) {
+      force.on_unknowns -= *directions * directions->colPivHouseholderQr().solve(force.on_unknowns);
     }
-    share.moving = std::max(share.moving, f.lpNorm<Eigen::Infinity>());
+    moving[force.load] = std::max(moving[force.load], force.on_unknowns.lpNorm<Eigen::Infinity>());
   }
-  share.moving = comm_.max(share.moving);
-  return share;
+  comm_.max(moving);
+  std::vector<LoadShare> shares;
+  for (std::size_t l = 0; l < loads.size(); ++l) shares.push_back({whole[l], moving[l]});
+  return shares;
 }
 
 std::vector<Vec6> System::forces_of(model::Batch& load, const model::State& state) const {

@@ -82,9 +82,18 @@ void LoadWatch::begin(const model::Model& model) {
 
 void LoadWatch::step(const assembly::System& system, const model::State& state, double rounding) {
   has_stepped_ = true;
+  std::vector<Load*> looked_at;
+  std::vector<model::Batch*> batches;
   for (Load& load : loads_) {
     if (load.seen == Seen::moving) continue;
-    const assembly::LoadShare share = system.share_of(*load.batch, state);
+    looked_at.push_back(&load);
+    batches.push_back(load.batch);
+  }
+  if (batches.empty()) return;
+  const std::vector<assembly::LoadShare> shares = system.shares_of(batches, state);
+  for (std::size_t i = 0; i < looked_at.size(); ++i) {
+    Load& load = *looked_at[i];
+    const assembly::LoadShare& share = shares[i];
     if (share.whole == 0.0) continue;
     if (is_of_partner(*load.batch) && share.whole <= echo * rounding) continue;
     // what is heated between supports is strained all the same

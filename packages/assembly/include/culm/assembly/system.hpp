@@ -220,6 +220,9 @@ class System {
   /// neither residual() nor reactions.
   /// @param load  one of the model, with nothing to remember
   LoadShare share_of(model::Batch& load, const model::State& state) const;
+  /// The same of many, which is faster than one by one.
+  std::vector<LoadShare> shares_of(std::span<model::Batch* const> loads,
+                                   const model::State& state) const;
   /// Force [N] and moment [N m] of such a load at state.next on each node, on the master of one
   /// that follows it. Collective; changes neither residual() nor reactions.
   std::vector<Vec6> forces_of(model::Batch& load, const model::State& state) const;
