@@ -52,8 +52,8 @@ void check(const parallel::Comm& comm, CheckArguments& arguments) {
   simulation::limit_memory(memory);
   const Log log(arguments.quiet ? LogLevel::quiet : LogLevel::info, comm.rank());
   const simulation::Catalogue catalogue;
-  const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
-  const Options deck = simulation::read_deck(catalogue, source);
+  auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
+  Options deck = simulation::read_deck(catalogue, source);
   for (const std::filesystem::path& written : {arguments.resolved, arguments.view}) {
     if (written.empty()) continue;
     simulation::refuse_overwriting(comm, simulation::find_input_files(deck, source), written);
@@ -61,9 +61,11 @@ void check(const parallel::Comm& comm, CheckArguments& arguments) {
   if (!arguments.resolved.empty()) {
     simulation::refuse_other_files(deck, arguments.resolved.parent_path());
   }
-  simulation::Simulation simulation(comm, catalogue, deck, source, log, memory);
+  simulation::Simulation simulation(comm, catalogue, std::move(deck), std::move(source), log,
+                                    memory);
   log.info(std::string(trim(simulation.summary())));
-  if (!arguments.resolved.empty() && comm.is_root()) write_resolved(deck, arguments.resolved);
+  if (!arguments.resolved.empty() && comm.is_root())
+    write_resolved(simulation.deck(), arguments.resolved);
   if (!arguments.view.empty()) {
     const std::filesystem::path folder = make_model_folder(comm, arguments.deck);
     if (comm.is_root()) arguments.model = folder;

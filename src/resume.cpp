@@ -5,6 +5,7 @@
 #include "partner_program.hpp"
 
 #include <memory>
+#include <utility>
 
 namespace culm::app {
 
@@ -25,14 +26,15 @@ void resume(const parallel::Comm& comm, ResumeArguments& arguments) {
                                        : simulation::read_source(comm, arguments.deck, {});
   source.overrides.insert(source.overrides.end(), arguments.overrides.begin(),
                           arguments.overrides.end());
-  const Options deck = simulation::read_deck(catalogue, source);
+  Options deck = simulation::read_deck(catalogue, source);
   simulation::check_resumed_deck(catalogue, deck, found.snapshot);
   arguments.needs_launcher = needs_launcher(deck, arguments);
   if (arguments.needs_launcher) return;
   simulation::warn_of_differences(comm, found.snapshot, log);
   log.info(simulation::describe(found, deck));
-  simulation::Simulation simulation(comm, catalogue, deck, source, log, memory);
-  const std::unique_ptr<PartnerProgram> partner = start_partner(comm, deck, arguments);
+  simulation::Simulation simulation(comm, catalogue, std::move(deck), std::move(source), log,
+                                    memory);
+  const std::unique_ptr<PartnerProgram> partner = start_partner(comm, simulation.deck(), arguments);
   arguments.started = found.folder;
   simulation.run(settings, request, &found.snapshot);
 }

@@ -6,6 +6,7 @@
 #include "partner_program.hpp"
 
 #include <memory>
+#include <utility>
 
 namespace culm::app {
 
@@ -24,12 +25,13 @@ void run(const parallel::Comm& comm, RunArguments& arguments, const std::filesys
                                          replay,
                                          serve};
   const simulation::Catalogue catalogue;
-  const auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
-  const Options deck = simulation::read_deck(catalogue, source);
+  auto source = simulation::read_source(comm, arguments.deck, arguments.overrides);
+  Options deck = simulation::read_deck(catalogue, source);
   arguments.needs_launcher = needs_launcher(deck, arguments);
   if (arguments.needs_launcher) return;
-  simulation::Simulation simulation(comm, catalogue, deck, source, log, memory);
-  const std::unique_ptr<PartnerProgram> partner = start_partner(comm, deck, arguments);
+  simulation::Simulation simulation(comm, catalogue, std::move(deck), std::move(source), log,
+                                    memory);
+  const std::unique_ptr<PartnerProgram> partner = start_partner(comm, simulation.deck(), arguments);
   arguments.started = settings.folder;
   simulation.run(settings, request);
 }

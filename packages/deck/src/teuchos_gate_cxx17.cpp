@@ -111,24 +111,20 @@ const Schema& chosen_schema(const Schema::Slot& slot, const Options& options) {
   return *slot.find(slot.by_type() ? options.text("Type") : std::string());
 }
 
-/// The given values, without defaults. Lists are filled where they stand, because a copy copies all
-/// that is in them.
-void add_given_values(const Options& options, ParameterList& list) {
-  list.setName(options.name());
+/// The given values of a list, without defaults and without the lists in it.
+ParameterList given_values(const Options& options) {
+  ParameterList list(options.name());
   for (const Options::Parameter& parameter : options.parameters()) {
     if (parameter.given && parameter.value) {
       list.setEntry(parameter.name, make_entry(*parameter.value));
     }
   }
-  for (const auto* lists : {&options.lists(), &options.entries()}) {
-    for (const Options& child : *lists) add_given_values(child, list.sublist(child.name()));
-  }
+  return list;
 }
 
-/// What the schema allows. Entries of the user and types that were chosen follow `options`.
-void add_valid_values(const Options& options, const Schema& schema, bool by_type,
-                      ParameterList& list) {
-  list.setName(options.name());
+/// What the schema allows there. A type that was chosen follows `options`.
+ParameterList valid_values(const Options& options, const Schema& schema, bool by_type) {
+  ParameterList list(options.name());
   if (by_type) list.setEntry("Type", make_entry(options.text("Type")));
   for (const Field& field : schema.fields()) {
     // Teuchos would fill in whatever is valid; a parameter that may be absent stays absent.
@@ -138,13 +134,7 @@ void add_valid_values(const Options& options, const Schema& schema, bool by_type
     entry.setDocString(field.doc());
     list.setEntry(field.name(), entry);
   }
-  for (const auto* lists : {&options.lists(), &options.entries()}) {
-    for (const Options& child : *lists) {
-      const Schema::Slot& slot = *schema.find_slot(child.name());
-      add_valid_values(child, chosen_schema(slot, child), slot.by_type(),
-                       list.sublist(child.name()));
-    }
-  }
+  return list;
 }
 
 template <class T>
@@ -167,25 +157,29 @@ std::string first_difference(const Options& options, const ParameterList& list) 
             : entry == nullptr;
     if (!same) return "'" + parameter.name + "' of '" + options.name() + "' differs";
   }
+  return {};
+}
+
+/// List by list, so that a large deck is not there as a whole once more.
+std::string objection_to(const Options& options, const Schema& schema, bool by_type) {
+  ParameterList list = given_values(options);
+  list.validateParametersAndSetDefaults(valid_values(options, schema, by_type));
+  std::string objection = first_difference(options, list);
   for (const auto* lists : {&options.lists(), &options.entries()}) {
     for (const Options& child : *lists) {
-      std::string difference = first_difference(child, list.sublist(child.name()));
-      if (!difference.empty()) return difference;
+      if (!objection.empty()) return objection;
+      const Schema::Slot& slot = *schema.find_slot(child.name());
+      objection = objection_to(child, chosen_schema(slot, child), slot.by_type());
     }
   }
-  return {};
+  return objection;
 }
 
 }  // namespace
 
 std::string teuchos_objection(const Options& options, const Schema& schema) {
   try {
-    ParameterList list;
-    add_given_values(options, list);
-    ParameterList valid;
-    add_valid_values(options, schema, false, valid);
-    list.validateParametersAndSetDefaults(valid);
-    return first_difference(options, list);
+    return objection_to(options, schema, false);
   } catch (const std::exception& error) {
     return error.what();
   }

@@ -190,28 +190,28 @@ bool holds_positions(const ConstraintRow& row) {
 
 }  // namespace
 
-void ConstraintBatch::add(Constraint constraint, int number) {
+void ConstraintBatch::add(const Constraint& constraint, int number) {
   internal_check(constraint.nodes.size() <= max_nodes && constraint.rows.size() <= max_rows,
                  "a constraint is larger than ConstraintBatch provides for");
   Item item;
+  item.constraint = &constraint;
   item.number = number;
-  item.rows_mid = item.rows_next = constraint.rows;
   for (const ConstraintRow& row : constraint.rows) {
     item.measure.push_back(holds_positions(row) ? length_ : 1.0);
   }
+  if (constraint.is_driven()) item.moved_mid = item.moved_next = constraint.rows;
   if (constraint.follow) item.slopes_mid = item.slopes_next = constraint.rows;
   if (constraint.drive) driven_.push_back(items_.size());
-  item.constraint = std::move(constraint);
   items_.push_back(std::move(item));
 }
 
 std::vector<int> ConstraintBatch::blocks(int item, const UnknownTable& unknowns) const {
   const Item& it = items_[static_cast<std::size_t>(item)];
   std::vector<int> result;
-  for (int node : it.constraint.nodes) result.push_back(unknowns.node_block(node));
+  for (int node : it.constraint->nodes) result.push_back(unknowns.node_block(node));
   result.push_back(unknowns.constraint_block(it.number));
-  if (it.constraint.follow) {
-    result.push_back(unknowns.own_block(it.constraint.follow->signal.block));
+  if (it.constraint->follow) {
+    result.push_back(unknowns.own_block(it.constraint->follow->signal.block));
   }
   return result;
 }
@@ -230,10 +230,10 @@ void ConstraintBatch::place(Placement placement, Form form) {
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     const std::size_t at = index(placement_.items[i]);
     const Item& item = items_[at];
-    if (item.constraint.follow) followers_.push_back(at);
-    if (form == Form::null_space && HeldPoint::describes(item.constraint, nodes_)) {
-      points_.emplace_back(i,
-                           HeldPoint(item.constraint, item.first_multiplier, item.measure.front()));
+    if (item.constraint->follow) followers_.push_back(at);
+    if (form == Form::null_space && HeldPoint::describes(*item.constraint, nodes_)) {
+      points_.emplace_back(
+          i, HeldPoint(*item.constraint, item.first_multiplier, item.measure.front()));
     }
   }
 }
@@ -242,19 +242,19 @@ void ConstraintBatch::prepare(const State& state, const Stencil& stencil) {
   const double time_mid = (1.0 - stencil.theta) * state.time_prev + stencil.theta * state.time;
   for (const std::size_t at : driven_) {
     Item& item = items_[at];
-    item.constraint.drive(time_mid, item.rows_mid);
-    item.constraint.drive(state.time, item.rows_next);
+    item.constraint->drive(time_mid, item.moved_mid);
+    item.constraint->drive(state.time, item.moved_next);
   }
 }
 
 void ConstraintBatch::follow_signals(const State& state, const Stencil& stencil) {
   for (const std::size_t at : followers_) {
     Item& item = items_[at];
-    const Constraint::Follow& follow = *item.constraint.follow;
+    const Constraint::Follow& follow = *item.constraint->follow;
     const double mid = follow.signal.in_step(state, stencil.theta);
     const double next = follow.signal.in_step(state, 1.0);
-    follow.rows(mid, item.rows_mid);
-    follow.rows(next, item.rows_next);
+    follow.rows(mid, item.moved_mid);
+    follow.rows(next, item.moved_next);
     follow.derivative(mid, item.slopes_mid);
     follow.derivative(next, item.slopes_next);
   }
@@ -291,13 +291,13 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
                                        Want want, Target& target) const {
   constexpr int W = Space::width;
   const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-  const std::vector<int>& nodes = item.constraint.nodes;
+  const std::vector<int>& nodes = item.constraint->nodes;
   const int n = static_cast<int>(nodes.size());
   const ItemMotion<max_nodes> motion(nodes_, nodes, state, stencil.theta);
   const double* lambda = state.multipliers.data() + item.first_multiplier;
-  const ItemFactors factors_mid = factors_of(item.rows_mid, motion.mid);
-  const ItemFactors factors_next = factors_of(item.rows_next, motion.next);
-  const ItemSlots forces = slot_forces(item.rows_mid, factors_mid, n, lambda);
+  const ItemFactors factors_mid = factors_of(item.rows_mid(), motion.mid);
+  const ItemFactors factors_next = factors_of(item.rows_next(), motion.next);
+  const ItemSlots forces = slot_forces(item.rows_mid(), factors_mid, n, lambda);
   for (int a = 0; a < n; ++a) {
     Vec<W> force;
     const Vec<12> by_slot = forces.middleCols<4>(4 * a).reshaped();
@@ -307,8 +307,8 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
     placement_.scatter.add_residual(i, a, force.data(), target);
   }
   std::array<double, max_rows> h{};
-  for (std::size_t k = 0; k < item.rows_next.size(); ++k) {
-    const ConstraintRow& row = item.rows_next[k];
+  for (std::size_t k = 0; k < item.rows_next().size(); ++k) {
+    const ConstraintRow& row = item.rows_next()[k];
     h[k] = factors_next[k].value(row);
     if (!std::isfinite(h[k])) return Verdict::not_finite;
     target.constraint_violation =
@@ -318,11 +318,11 @@ Verdict ConstraintBatch::assemble_item(std::size_t i, const State& state, const 
   placement_.scatter.add_residual(i, n, h.data(), target);
   if (want == Want::residual) return Verdict::ok;
 
-  add_border<Space>(i, ConstraintJacobian<Space>(item.rows_mid, factors_mid, n, motion.arms_mid),
-                    ConstraintJacobian<Space>(item.rows_next, factors_next, n, motion.arms_next),
+  add_border<Space>(i, ConstraintJacobian<Space>(item.rows_mid(), factors_mid, n, motion.arms_mid),
+                    ConstraintJacobian<Space>(item.rows_next(), factors_next, n, motion.arms_next),
                     target);
   add_curvature<Space>(i, motion, forces, lambda, stencil.theta, target);
-  if (item.constraint.follow) add_signal<Space>(i, motion, lambda, stencil.theta, target);
+  if (item.constraint->follow) add_signal<Space>(i, motion, lambda, stencil.theta, target);
   return Verdict::ok;
 }
 
@@ -345,7 +345,7 @@ void ConstraintBatch::add_curvature(std::size_t i, const Motion& motion, const F
                                     const double* lambda, double theta, Target& target) const {
   constexpr int W = Space::width;
   const std::vector<ConstraintRow>& rows =
-      items_[static_cast<std::size_t>(placement_.items[i])].rows_mid;
+      items_[static_cast<std::size_t>(placement_.items[i])].rows_mid();
   const int n = static_cast<int>(forces.cols()) / 4;
   const bool is_curved = !std::ranges::all_of(rows, &ConstraintRow::linear);
   const Scalars A = is_curved ? Scalars(theta * curvature(rows, lambda, 4 * n)) : Scalars();
@@ -371,8 +371,8 @@ template <class Space, class Motion>
 void ConstraintBatch::add_signal(std::size_t i, const Motion& motion, const double* lambda,
                                  double theta, Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-  const Signal& signal = item.constraint.follow->signal;
-  const int n = static_cast<int>(item.constraint.nodes.size());
+  const Signal& signal = item.constraint->follow->signal;
+  const int n = static_cast<int>(item.constraint->nodes.size());
   const ItemSlots forces =
       slot_forces(item.slopes_mid, factors_of(item.slopes_mid, motion.mid), n, lambda);
   for (int a = 0; a < n; ++a) {
@@ -394,9 +394,9 @@ void ConstraintBatch::add_signal(std::size_t i, const Motion& motion, const doub
 template <class Space>
 void ConstraintBatch::assemble_jacobian(std::size_t i, const State& state, Target& target) const {
   const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-  const ItemMotion<max_nodes> motion(nodes_, item.constraint.nodes, state, 1.0);
-  const ConstraintJacobian<Space> rows(item.rows_next, factors_of(item.rows_next, motion.next),
-                                       static_cast<int>(item.constraint.nodes.size()),
+  const ItemMotion<max_nodes> motion(nodes_, item.constraint->nodes, state, 1.0);
+  const ConstraintJacobian<Space> rows(item.rows_next(), factors_of(item.rows_next(), motion.next),
+                                       static_cast<int>(item.constraint->nodes.size()),
                                        motion.arms_next);
   add_border<Space>(i, rows, rows, target);
 }
@@ -405,14 +405,14 @@ StepWork ConstraintBatch::step_work(const State& state, const Stencil& stencil) 
   StepWork work;
   for (std::size_t i = 0; i < placement_.items.size(); ++i) {
     const Item& item = items_[static_cast<std::size_t>(placement_.items[i])];
-    if (!placement_.owned[i] || !item.constraint.is_driven()) continue;
-    const std::vector<int>& nodes = item.constraint.nodes;
+    if (!placement_.owned[i] || !item.constraint->is_driven()) continue;
+    const std::vector<int>& nodes = item.constraint->nodes;
     const ItemMotion<max_nodes> motion(nodes_, nodes, state, stencil.theta);
     ItemSlots moved = motion.next;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       moved.middleCols<4>(4 * static_cast<int>(a)) -= NodeTable::slots(state.prev, nodes[a]);
     }
-    const ItemSlots forces = slot_forces(item.rows_mid, factors_of(item.rows_mid, motion.mid),
+    const ItemSlots forces = slot_forces(item.rows_mid(), factors_of(item.rows_mid(), motion.mid),
                                          static_cast<int>(nodes.size()),
                                          state.multipliers.data() + item.first_multiplier);
     // the constraint acts with -H^T lambda
@@ -425,17 +425,17 @@ Vec6 ConstraintBatch::reaction(int node, const State& state, const std::string& 
   Vec6 total = Vec6::Zero();
   for (const Item& item : items_) {
     // a rigid connection holds the node that follows, and hands what holds both to its master
-    const auto& link = item.constraint.link;
-    const bool is_inner = item.constraint.is_structural || (link && link->slave != node);
-    const bool counts = constraint.empty() ? !is_inner : item.constraint.name == constraint;
+    const auto& link = item.constraint->link;
+    const bool is_inner = item.constraint->is_structural || (link && link->slave != node);
+    const bool counts = constraint.empty() ? !is_inner : item.constraint->name == constraint;
     if (!counts) continue;
-    const std::vector<int>& nodes = item.constraint.nodes;
+    const std::vector<int>& nodes = item.constraint->nodes;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       if (nodes[a] != node) continue;
       const ItemMotion<max_nodes> motion(nodes_, nodes, state, 1.0);
-      const ItemSlots forces = slot_forces(item.rows_next, factors_of(item.rows_next, motion.next),
-                                           static_cast<int>(nodes.size()),
-                                           state.multipliers.data() + item.first_multiplier);
+      const ItemSlots forces = slot_forces(
+          item.rows_next(), factors_of(item.rows_next(), motion.next),
+          static_cast<int>(nodes.size()), state.multipliers.data() + item.first_multiplier);
       const Vec<12> force = forces.middleCols<4>(4 * static_cast<int>(a)).reshaped();
       Arms<4> arms = motion.arms_next[a];
       arms.slots.col(0).setZero();  // the moment is taken about the node

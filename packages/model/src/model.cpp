@@ -17,9 +17,10 @@ Model::Model() = default;
 Model::~Model() = default;
 
 Structure& Model::add_structure(std::string name) {
-  structures_.emplace_back();
-  structures_.back().name = std::move(name);
-  return structures_.back();
+  Structure& structure = structures_.emplace_back();
+  structure_by_name_.emplace(name, &structure);
+  structure.name = std::move(name);
+  return structure;
 }
 
 void Model::add_element_batch(std::unique_ptr<Batch> batch) {

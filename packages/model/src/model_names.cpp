@@ -7,10 +7,8 @@
 namespace culm::model {
 
 const Structure* Model::find_structure(std::string_view name) const {
-  for (const Structure& structure : structures_) {
-    if (structure.name == name) return &structure;
-  }
-  return nullptr;
+  const auto found = structure_by_name_.find(name);
+  return found == structure_by_name_.end() ? nullptr : found->second;
 }
 
 void Model::add_element_set(std::string name, const Structure& structure,

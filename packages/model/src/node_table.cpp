@@ -100,11 +100,14 @@ bool NodeTable::link(int slave, int master) {
   if (is_slave(slave) || root == slave) return false;
   // a triad cannot follow a director
   if (kind(slave) == NodeKind::node12 && kind(root) == NodeKind::node6) return false;
-  for (int node = 0; node < size(); ++node) {
-    if (is_slave(node) && this->master(node) == slave) {
+  std::vector<int>& led = slaves_[root];
+  if (const auto handed_on = slaves_.extract(slave)) {
+    for (const int node : handed_on.mapped()) {
       links_[index(link_of_[index(node)])] = make_link(node, root);
+      led.push_back(node);
     }
   }
+  led.push_back(slave);
   link_of_.resize(kinds_.size(), -1);
   link_of_[index(slave)] = static_cast<int>(links_.size());
   links_.push_back(make_link(slave, root));

@@ -53,6 +53,18 @@ void limit_cache(const std::filesystem::path& path, hid_t access) {
 
 }  // namespace
 
+Hdf5File::Hdf5File(std::filesystem::path path, Handle file)
+    : path_(std::move(path)),
+      file_(std::move(file)),
+      group_creation_(H5Pcreate(H5P_GROUP_CREATE), H5Pclose) {
+  // What a structure has stands in the header of its group. Beyond 8 links or attributes HDF5 would
+  // make a heap and a tree for them, of some kB.
+  constexpr unsigned in_header = 32;
+  const hid_t group = group_creation_.id();
+  check(H5Pset_link_phase_change(group, in_header, in_header - 2), "make groups");
+  check(H5Pset_attr_phase_change(group, in_header, in_header - 2), "make groups");
+}
+
 Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // From this format on HDF5 guards its own tables with checksums; without them it reads what is
@@ -128,7 +140,7 @@ void Hdf5File::close() {
 
 Handle Hdf5File::make_group(hid_t where, const std::string& name) {
   sum_.add_group(name);
-  return {check(H5Gcreate2(where, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+  return {check(H5Gcreate2(where, name.c_str(), H5P_DEFAULT, group_creation_.id(), H5P_DEFAULT),
                 "create group " + name),
           H5Gclose};
 }

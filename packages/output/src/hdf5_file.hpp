@@ -82,8 +82,7 @@ class Hdf5File {
   }
 
  private:
-  Hdf5File(std::filesystem::path path, Handle file)
-      : path_(std::move(path)), file_(std::move(file)) {}
+  Hdf5File(std::filesystem::path path, Handle file);
 
   [[noreturn]] void fail(std::string_view action) const;
   void start_journal();
@@ -97,6 +96,7 @@ class Hdf5File {
   std::filesystem::path path_;
   std::optional<FileIdentity> identity_;  // of a file that grows under its final name
   Handle file_;
+  Handle group_creation_;  // how groups are made
   ContentSum sum_;
 };
 

@@ -54,20 +54,39 @@ std::string entry_of(const model::Constraint& constraint) {
   return path.starts_with(list) ? path.substr(list.size()) : constraint.name;
 }
 
-std::vector<output::HeldNodes> held_nodes(const model::Model& model,
-                                          const std::unordered_map<int, int>& number) {
-  std::vector<output::HeldNodes> held;
+// A node as one of a structure.
+struct NodePlace {
+  int node = 0;
+  std::size_t structure = 0;
+  int number = 0;  // within the structure
+
+  auto operator<=>(const NodePlace&) const = default;
+};
+
+std::vector<NodePlace> places_by_node(const model::Model& model) {
+  std::vector<NodePlace> places;
+  for (std::size_t s = 0; s < model.structures().size(); ++s) {
+    int number = 0;
+    for (const int node : model.structures()[s].nodes) places.push_back({node, s, number++});
+  }
+  std::ranges::sort(places);
+  return places;
+}
+
+// Adds to the structures what holds their nodes.
+void add_held_nodes(const model::Model& model, std::vector<output::StructureMesh>& meshes) {
+  const std::vector<NodePlace> places = places_by_node(model);
   for (const model::Constraint& constraint : model.constraints()) {
     if (constraint.is_structural) continue;
     const std::string name = entry_of(constraint);
     for (const int node : constraint.nodes) {
-      const auto found = number.find(node);
-      if (found == number.end()) continue;
-      if (held.empty() || held.back().name != name) held.push_back({name, constraint.type, {}});
-      held.back().nodes.push_back(found->second);
+      for (const NodePlace& place : std::ranges::equal_range(places, node, {}, &NodePlace::node)) {
+        std::vector<output::HeldNodes>& held = meshes[place.structure].held;
+        if (held.empty() || held.back().name != name) held.push_back({name, constraint.type, {}});
+        held.back().nodes.push_back(place.number);
+      }
     }
   }
-  return held;
 }
 
 std::vector<int> shown_layers(const model::Structure& structure, const LayerSettings& settings) {
@@ -158,6 +177,7 @@ output::StructureMesh frame_of(const model::Structure& structure, const LayerSet
   return frame;
 }
 
+// Without what holds it.
 output::StructureMesh mesh_of(const model::Structure& structure, const LayerSettings& layers,
                               const model::Model& model) {
   output::StructureMesh mesh = frame_of(structure, layers);
@@ -172,7 +192,6 @@ output::StructureMesh mesh_of(const model::Structure& structure, const LayerSett
     for (int node : cell.nodes) picture.nodes.push_back(number.at(node));
     mesh.cells.push_back(picture);
   }
-  mesh.held = held_nodes(model, number);
   return mesh;
 }
 
@@ -248,6 +267,7 @@ std::vector<output::StructureMesh> meshes_of(const model::Model& model,
   for (const model::Structure& structure : model.structures()) {
     meshes.push_back(mesh_of(structure, layers, model));
   }
+  add_held_nodes(model, meshes);
   return meshes;
 }
 

@@ -103,6 +103,7 @@ ResultFiles::ResultFiles(assembly::System& system, const model::Model& drawn,
 ResultFiles::~ResultFiles() = default;
 
 void ResultFiles::make_part() {
+  part_.reset();  // the one before need not be there as well
   part_ = std::make_unique<PicturePart>(*system_, *drawn_, settings_.layers, settings_.velocities);
 }
 

@@ -77,10 +77,11 @@ std::unique_ptr<CoupledRun> Simulation::Parts::make_coupling(const CoupledFiles&
                                       comm, findings);
 }
 
-Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
+Simulation::Simulation(const parallel::Comm& comm, const Catalogue& catalogue, Options deck,
                        DeckSource source, const Log& log, double memory)
-    : Simulation(std::unique_ptr<Parts>(new Parts{comm, nullptr, catalogue, deck, std::move(source),
-                                                  log, least_memory(memory, comm)})) {}
+    : Simulation(
+          std::unique_ptr<Parts>(new Parts{comm, nullptr, catalogue, std::move(deck),
+                                           std::move(source), log, least_memory(memory, comm)})) {}
 
 Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {
   parts_->phases.enter(0, parts_->comm, parts_->ledger);
@@ -101,14 +102,16 @@ Simulation Simulation::make(std::vector<std::string> assignments, const Log& log
 
 Simulation Simulation::of(DeckSource source, const Log& log, const parallel::Comm& comm) {
   const auto catalogue = std::make_shared<const Catalogue>();
-  const Options deck = read_deck(*catalogue, source);
+  Options deck = read_deck(*catalogue, source);
   return Simulation(std::unique_ptr<Parts>(
-      new Parts{comm, catalogue, *catalogue, deck, std::move(source), log,
+      new Parts{comm, catalogue, *catalogue, std::move(deck), std::move(source), log,
                 least_memory(machine_memory(comm.most_on_a_machine()), comm)}));
 }
 
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
+
+const Options& Simulation::deck() const { return parts_->deck; }
 
 void Simulation::run(const RunSettings& settings, const StopRequest& request,
                      const Snapshot* from) {

@@ -30,20 +30,22 @@ def model(meshes, state):
     """
     figure = pyplot.figure(figsize=(6.4, 5.2), layout="constrained")
     axes = figure.add_subplot(projection="3d", proj_type="ortho")
-    for name, mesh in meshes.items():
-        _draw(axes, mesh, mesh.position, REFERENCE, 0.15)
-        if name in state:
-            _draw(axes, mesh, state[name], DEFORMED, 0.5)
+    _draw(axes, [(mesh, mesh.position) for mesh in meshes.values()], REFERENCE, 0.15)
+    _draw(axes, [(mesh, state[name]) for name, mesh in meshes.items() if name in state], DEFORMED, 0.5)
     places = [mesh.position for mesh in meshes.values()] + list(state.values())
     _frame(axes, numpy.vstack(places))
     return figure
 
 
-def _draw(axes, mesh, position, colour, alpha):
-    cells = [position[list(cell)] for cell in mesh.cells]
-    surfaces = [c for c in cells if len(c) > 2 and mesh.is_surface]
-    lines = [c for c in cells if len(c) > 1 and not mesh.is_surface]
-    points = [c[0] for c in cells if len(c) == 1]
+def _draw(axes, structures, colour, alpha):
+    """Structures in one colour, (mesh, position) of each. All at once: what matplotlib is handed one by one takes it
+    milliseconds each."""
+    surfaces, lines, points = [], [], []
+    for mesh, position in structures:
+        cells = [position[list(cell)] for cell in mesh.cells]
+        surfaces += [c for c in cells if len(c) > 2 and mesh.is_surface]
+        lines += [c for c in cells if len(c) > 1 and not mesh.is_surface]
+        points += [c[0] for c in cells if len(c) == 1]
     if surfaces:
         axes.add_collection3d(
             Poly3DCollection(surfaces, facecolor=colour, edgecolor=colour, lw=0.3, alpha=alpha)
@@ -74,12 +76,9 @@ def coloured(meshes, state, pictures):
         colours = matplotlib.cm.ScalarMappable(
             matplotlib.colors.Normalize(low, high if high > low else low + 1e-30), "coolwarm" if signed else "viridis"
         )
-        for name, mesh in meshes.items():
-            position = state.get(name, mesh.position)
-            if name in picture.values:
-                _colour(axes, mesh, position, colours.to_rgba(picture.values[name]))
-            else:
-                _draw(axes, mesh, position, REFERENCE, 0.15)
+        places = {name: (mesh, state.get(name, mesh.position)) for name, mesh in meshes.items()}
+        _draw(axes, [place for name, place in places.items() if name not in picture.values], REFERENCE, 0.15)
+        _colour(axes, [(*places[name], colours.to_rgba(values)) for name, values in picture.values.items()])
         _frame(axes, everything)
         axes.set_axis_off()  # as in the picture of the model
         axes.set_title(f"{picture.title} [{picture.unit}]", fontsize=9)
@@ -87,12 +86,18 @@ def coloured(meshes, state, pictures):
     return figure
 
 
-def _colour(axes, mesh, position, colours):
-    cells = [position[list(cell)] for cell in mesh.cells]
-    if mesh.is_surface:
-        axes.add_collection3d(Poly3DCollection(cells, facecolor=colours, edgecolor=colours, lw=0.3))
-    else:
-        axes.add_collection3d(Line3DCollection(cells, colors=colours, lw=3.0))
+def _colour(axes, structures):
+    """Structures in the colours of their cells: (mesh, position, colours) of each."""
+    for is_surface in (True, False):
+        some = [one for one in structures if one[0].is_surface == is_surface]
+        if not some:
+            continue
+        cells = [position[list(cell)] for mesh, position, _ in some for cell in mesh.cells]
+        colours = numpy.vstack([each for *_, each in some])
+        if is_surface:
+            axes.add_collection3d(Poly3DCollection(cells, facecolor=colours, edgecolor=colours, lw=0.3))
+        else:
+            axes.add_collection3d(Line3DCollection(cells, colors=colours, lw=3.0))
 
 
 def _frame(axes, points):
@@ -123,10 +128,9 @@ def shapes(meshes, shapes, titles):
         axes = figure.add_subplot(rows, columns, number + 1, projection="3d", proj_type="ortho")
         moved = {name: shape[number, :, :3].real for name, shape in shapes.items() if name in meshes}
         largest = max(float(numpy.abs(one).max()) for one in moved.values()) or 1.0
-        for name, mesh in meshes.items():
-            _draw(axes, mesh, mesh.position, REFERENCE, 0.15)
-            if name in moved:
-                _draw(axes, mesh, mesh.position + 0.1 * size / largest * moved[name], DEFORMED, 0.5)
+        _draw(axes, [(mesh, mesh.position) for mesh in meshes.values()], REFERENCE, 0.15)
+        _draw(axes, [(meshes[name], meshes[name].position + 0.1 * size / largest * way) for name, way in moved.items()],
+              DEFORMED, 0.5)
         _frame(axes, everything)
         axes.set(xticklabels=[], yticklabels=[], zticklabels=[], xlabel="x", ylabel="y", zlabel="z")
         axes.set_title(title, fontsize=8)

@@ -62,8 +62,9 @@ def write_page(results, folder, output, window=None):
     )
     for finding in results.findings():
         page.paragraph(str(finding), "broken" if finding.is_broken else "warning")
-    _add_model(page, results, drawing)
-    _add_stresses(page, results, drawing)
+    meshes, last = results.meshes(), results.last_state()
+    _add_model(page, meshes, last, drawing)
+    _add_stresses(page, results, meshes, last, drawing)
     path = folder / "history.csv"
     history = History(path) if path.exists() else None
     if history is not None and history.names and len(history.levels) > 1:
@@ -85,24 +86,24 @@ def _add_figure(page, drawing, figure, description):
     drawing.close(figure)
 
 
-def _add_model(page, results, drawing):
-    time, state = results.last_state()
+def _add_model(page, meshes, last, drawing):
+    time, state = last
     page.heading("Model")
-    figure = drawing.model(results.meshes(), state)
+    figure = drawing.model(meshes, state)
     _add_figure(page, drawing, figure, "reference in grey, last recorded state in blue")
     page.paragraph(f"Grey: reference. Blue: last recorded state, at {time:.6g}, without magnification.")
 
 
-def _add_stresses(page, results, drawing):
+def _add_stresses(page, results, meshes, last, drawing):
     """Pictures of what the elements carry in the last recorded state."""
-    time, state = results.last_state()
+    time, state = last
     places = [place for positions in state.values() for place in (positions.min(axis=0), positions.max(axis=0))]
     size = math.dist([min(axis) for axis in zip(*places)], [max(axis) for axis in zip(*places)]) if places else 1.0
     pictures = stresses.of_state(results.cell_fields(), size or 1.0)
     if not pictures:
         return
     page.heading("Stresses")
-    figure = drawing.coloured(results.meshes(), state, pictures)
+    figure = drawing.coloured(meshes, state, pictures)
     _add_figure(page, drawing, figure, "; ".join(picture.title for picture in pictures))
     page.paragraph(
         f"In the last recorded state, at {time:.6g}, without magnification; a number for each element, by its forces per section"

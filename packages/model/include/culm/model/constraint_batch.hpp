@@ -20,8 +20,8 @@ class ConstraintBatch final : public Batch {
   ConstraintBatch(Effect effect, const NodeTable& nodes, double length)
       : effect_(std::move(effect)), nodes_(nodes), length_(length) {}
 
-  /// @param number the constraint's number in the UnknownTable
-  void add(Constraint constraint, int number);
+  /// @param constraint  which must live as long @param number  of it in the UnknownTable
+  void add(const Constraint& constraint, int number);
 
   const Effect& effect() const override { return effect_; }
   int size() const override { return static_cast<int>(items_.size()); }
@@ -44,14 +44,22 @@ class ConstraintBatch final : public Batch {
 
  private:
   struct Item {
-    Constraint constraint;
+    const Constraint* constraint = nullptr;
     int number = 0;
     int first_multiplier = 0;
-    std::vector<ConstraintRow> rows_mid;   ///< as they act on forces
-    std::vector<ConstraintRow> rows_next;  ///< as they must hold at the end of the step
-    std::vector<double> measure;           ///< what |h| is judged against, per row
+    std::vector<double> measure;  ///< what |h| is judged against, per row
+    /// Rows that move, as they act on forces and as they must hold at the end of the step; empty
+    /// where none do.
+    std::vector<ConstraintRow> moved_mid, moved_next;
     /// Derivatives of both by the signal that is followed; empty without one.
     std::vector<ConstraintRow> slopes_mid, slopes_next;
+
+    const std::vector<ConstraintRow>& rows_mid() const {
+      return constraint->is_driven() ? moved_mid : constraint->rows;
+    }
+    const std::vector<ConstraintRow>& rows_next() const {
+      return constraint->is_driven() ? moved_next : constraint->rows;
+    }
   };
 
   template <class Space>

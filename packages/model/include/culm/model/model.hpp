@@ -150,6 +150,7 @@ class Model {
 
   NodeTable nodes_;
   std::deque<Structure> structures_;
+  std::map<std::string, const Structure*, std::less<>> structure_by_name_;
   std::map<std::string, std::vector<int>> node_sets_;
   std::map<std::string, std::vector<LinePoint>> element_sets_;
   std::vector<std::unique_ptr<Batch>> element_batches_;

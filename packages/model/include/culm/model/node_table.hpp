@@ -9,6 +9,7 @@
 #include <bitset>
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 namespace culm::model {
@@ -98,6 +99,7 @@ class NodeTable {
   std::vector<std::uint8_t> fixed_;
   std::vector<int> link_of_;  // of each node among the links, or -1; empty without links
   std::vector<RigidLink> links_;
+  std::unordered_map<int, std::vector<int>> slaves_;  // of each master
 };
 
 }  // namespace culm::model

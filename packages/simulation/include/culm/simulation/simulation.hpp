@@ -53,7 +53,7 @@ class Simulation {
   /// @param deck validated with Catalogue::deck_schema
   /// @param source what it was read from, for checkpoints
   /// @param memory what the model may need on a machine [B]
-  Simulation(const parallel::Comm& comm, const Catalogue& catalogue, const Options& deck,
+  Simulation(const parallel::Comm& comm, const Catalogue& catalogue, Options deck,
              DeckSource source, const Log& log, double memory = machine_memory());
   /// The same from a file, with all types that culm has. Collective; throws FileError, UsageError
   /// for an override that is no assignment, and InputError.
@@ -69,6 +69,8 @@ class Simulation {
                          const parallel::Comm& comm = parallel::Comm());
   Simulation(Simulation&&) noexcept;
   ~Simulation();
+
+  const Options& deck() const;
 
   /// Runs all analyses and writes results. On NumericalError or NonFiniteError the files hold
   /// everything up to the last accepted step, and the post-mortem as report. Throws Stopped when a
