@@ -100,21 +100,11 @@ class HeldDirections {
   std::set<int> still_;  // nodes that cannot move at all
 };
 
-// The unknowns of a node that are solved for.
-using Unknowns = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
-
 // The rows of a node on this rank.
 struct NodeRows {
   std::size_t first = 0;
   int count = 0;
   int node = 0;
-};
-
-// What a load does to a node.
-struct NodeForce {
-  std::size_t load = 0;
-  int node = 0;
-  Unknowns on_unknowns;
 };
 
 // Of all nodes of this rank, rising.
@@ -185,10 +175,12 @@ LoadShare System::share_of(model::Batch& load, const model::State& state) const 
 
 std::vector<LoadShare> System::shares_of(std::span<model::Batch* const> loads,
                                          const model::State& state) const {
-  const std::vector<NodeRows> nodes = rows_of_nodes(layout_, model_);
   std::vector<double> whole(loads.size(), 0.0), moving(loads.size(), 0.0);
-  std::vector<NodeForce> forces;
   std::vector<double> residual(layout_.rows().size(), 0.0), taken(reactions_.size(), 0.0);
+  struct Range {
+    std::size_t first = 0, end = 0;
+  };
+  std::vector<Range> acting(loads.size());  // rows, from the first to the last
   for (std::size_t l = 0; l < loads.size(); ++l) {
     assemble_alone(*loads[l], state, residual, taken);
     const auto note = [&](double& force) {
@@ -196,13 +188,11 @@ std::vector<LoadShare> System::shares_of(std::span<model::Batch* const> loads,
       force = 0.0;  // for the next load
     };
     for (std::size_t at = 0; (at = next_acting(taken, at)) < taken.size();) note(taken[at]);
-    for (std::size_t row = 0; (row = next_acting(residual, row)) < residual.size();) {
-      std::span<double> rows(&residual[row], 1);
-      if (const NodeRows* node = node_of_row(nodes, row)) {
-        rows = std::span(residual).subspan(node->first, index(node->count));
-        forces.push_back({l, node->node, Eigen::Map<const Unknowns>(rows.data(), node->count)});
-      }
-      for (double& force : rows) note(force);
+    Range& rows = acting[l];
+    rows.first = next_acting(residual, 0);
+    for (std::size_t row = rows.first; row < residual.size(); row = next_acting(residual, row)) {
+      note(residual[row]);
+      rows.end = row + 1;
     }
   }
   comm_.max(whole);
@@ -212,11 +202,24 @@ std::vector<LoadShare> System::shares_of(std::span<model::Batch* const> loads,
   model::Coordinates q = state.next;
   if (!model_.equations().empty()) complete(q);  // joints lead to what is held on other ranks
   const HeldDirections held(model_, q);
-  for (NodeForce& force : forces) {
-    if (const Eigen::MatrixXd* directions = held.of(force.node)) {
-      force.on_unknowns -= *directions * directions->colPivHouseholderQr().solve(force.on_unknowns);
+  const std::vector<NodeRows> nodes = rows_of_nodes(layout_, model_);
+  for (std::size_t l = 0; l < loads.size(); ++l) {
+    if (whole[l] == 0.0) continue;
+    assemble_alone(*loads[l], state, residual, {});
+    const auto rows = std::span<const double>(residual).first(acting[l].end);
+    for (std::size_t row = acting[l].first; (row = next_acting(rows, row)) < rows.size();) {
+      const NodeRows* const node = node_of_row(nodes, row);
+      if (node == nullptr) {
+        residual[row] = 0.0;  // of a signal
+        continue;
+      }
+      Eigen::Map<Eigen::VectorXd> f(&residual[node->first], node->count);
+      if (const Eigen::MatrixXd* directions = held.of(node->node)) {
+        f -= *directions * directions->colPivHouseholderQr().solve(f);
+      }
+      moving[l] = std::max(moving[l], f.lpNorm<Eigen::Infinity>());
+      f.setZero();
     }
-    moving[force.load] = std::max(moving[force.load], force.on_unknowns.lpNorm<Eigen::Infinity>());
   }
   comm_.max(moving);
   std::vector<LoadShare> shares;
