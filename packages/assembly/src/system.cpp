@@ -69,7 +69,11 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
   }
   driven_elements_ = driven_.size();
   for (const auto& batch : model.constraint_batches()) driven_.push_back(batch.get());
-  for (const auto& batch : model.loads()) driven_.push_back(batch.get());
+  for (const auto& batch : model.loads()) {
+    driven_.push_back(batch.get());
+    const auto* source = dynamic_cast<const model::ReactionSource*>(batch.get());
+    if (source != nullptr) reaction_sources_.push_back(source);
+  }
   find_needed_nodes();
   for (int node = 0; node < model.nodes().size(); ++node) {
     if (layout_.owners()[index(unknowns.node_block(node))] == comm_.rank()) {
@@ -88,7 +92,7 @@ System::System(model::Model& model, const parallel::Comm& comm, Ledger& ledger)
       const auto row = index(local.first_column + i);  // owned columns are numbered as rows
       const auto of_row = column_of.subspan(row_begin[row], row_begin[row + 1] - row_begin[row]);
       const auto found = std::ranges::find(of_row, static_cast<int>(row)) - of_row.begin();
-      diagonal_.push_back(static_cast<int>(row_begin[row]) + static_cast<int>(found));
+      diagonal_.push_back(row_begin[row] + static_cast<std::size_t>(found));
     }
   }
   for (const model::Batch* batch : batches_) needs_all_nodes_ |= batch->needs_all_nodes();
@@ -378,7 +382,7 @@ double System::largest_diagonal() const {
   const auto values = std::as_const(*matrix_).values();
   double largest = 0.0;
   for (std::size_t row = 0; row < index(num_force_rows()); ++row) {
-    largest = std::max(largest, std::abs(values[index(diagonal_[row])]));
+    largest = std::max(largest, std::abs(values[diagonal_[row]]));
   }
   return largest;
 }
@@ -388,7 +392,7 @@ void System::stiffen(double share) {
   const double least = largest > 0.0 ? largest : 1.0;
   const auto values = matrix_->values();
   for (std::size_t row = 0; row < index(num_force_rows()); ++row) {
-    double& entry = values[index(diagonal_[row])];
+    double& entry = values[diagonal_[row]];
     entry += share * (entry == 0.0 ? least : std::abs(entry));
   }
 }
@@ -455,13 +459,14 @@ void System::extrapolate(const model::State& state, const Stencil& stencil, cons
   }
 }
 
-void System::choose_multiplier_scale(const model::State& state, const Stencil& stencil) {
+void System::choose_multiplier_scale(const model::State& state, const Stencil& stencil, Want want) {
   multiplier_scale_ = 1.0;
   if (model_.unknowns().num_forces() == 0) return;
-  evaluate(state, stencil, Want::residual_and_tangent);
+  evaluate(state, stencil, want);
   const double largest = comm_.max(largest_diagonal());
   // a power of two scales without rounding; the root lies between the force and the unit rows
-  if (largest > 0.0) multiplier_scale_ = std::exp2(std::round(std::log2(largest)));
+  if (largest > 0.0 && std::isfinite(largest))
+    multiplier_scale_ = std::exp2(std::round(std::log2(largest)));
 }
 
 }  // namespace culm::assembly

@@ -159,13 +159,15 @@ Vec6 force_and_moment(const model::Model& model, int node, const model::NodeSlot
 
 }  // namespace
 
-void System::assemble_alone(model::Batch& load, const model::State& state,
+void System::assemble_alone(model::Batch& load, const model::State& state, double theta,
                             std::span<double> residual, std::span<double> taken) const {
   model::Target target;
   target.residual = residual;
   target.reactions = taken;
   target.row_begin = matrix_->row_begin();
-  load.assemble(state, Stencil::statics(), Want::residual, target);
+  Stencil stencil = Stencil::statics();
+  stencil.theta = stencil.theta_strain = theta;
+  load.assemble(state, stencil, Want::residual, target);
 }
 
 LoadShare System::share_of(model::Batch& load, const model::State& state) const {
@@ -174,7 +176,7 @@ LoadShare System::share_of(model::Batch& load, const model::State& state) const 
 }
 
 std::vector<LoadShare> System::shares_of(std::span<model::Batch* const> loads,
-                                         const model::State& state) const {
+                                         const model::State& state, double theta) const {
   std::vector<double> whole(loads.size(), 0.0), moving(loads.size(), 0.0);
   std::vector<double> residual(layout_.rows().size(), 0.0), taken(reactions_.size(), 0.0);
   struct Range {
@@ -182,7 +184,7 @@ std::vector<LoadShare> System::shares_of(std::span<model::Batch* const> loads,
   };
   std::vector<Range> acting(loads.size());  // rows, from the first to the last
   for (std::size_t l = 0; l < loads.size(); ++l) {
-    assemble_alone(*loads[l], state, residual, taken);
+    assemble_alone(*loads[l], state, theta, residual, taken);
     const auto note = [&](double& force) {
       whole[l] = std::max(whole[l], std::abs(force));
       force = 0.0;  // for the next load
@@ -205,7 +207,7 @@ std::vector<LoadShare> System::shares_of(std::span<model::Batch* const> loads,
   const std::vector<NodeRows> nodes = rows_of_nodes(layout_, model_);
   for (std::size_t l = 0; l < loads.size(); ++l) {
     if (whole[l] == 0.0) continue;
-    assemble_alone(*loads[l], state, residual, {});
+    assemble_alone(*loads[l], state, theta, residual, {});
     const auto rows = std::span<const double>(residual).first(acting[l].end);
     for (std::size_t row = acting[l].first; (row = next_acting(rows, row)) < rows.size();) {
       const NodeRows* const node = node_of_row(nodes, row);
@@ -231,7 +233,7 @@ std::vector<Vec6> System::forces_of(model::Batch& load, const model::State& stat
   Vector forces(layout_.rows());
   const auto residual = forces.values();
   std::vector<double> taken(reactions_.size(), 0.0);
-  assemble_alone(load, state, residual, taken);
+  assemble_alone(load, state, 1.0, residual, taken);
   std::vector<double> all(12 * index(model_.nodes().size()), 0.0);  // unknowns of nodes
   const auto each_unknown = [&](const model::Block& block, auto action) {
     if (block.kind != model::BlockKind::node) return;

@@ -131,6 +131,11 @@ void System::save(const Motions& motions, std::string_view name, Snapshot& snaps
     snapshot.set(name, std::move(numbers));
     return;
   }
+  save_nodes([this, &motions] { return own_motions(motions); }, 6, name, snapshot);
+}
+
+// Those of all nodes of this rank; zero where a node does not move.
+std::vector<double> System::own_motions(const Motions& motions) const {
   std::vector<double> own;
   own.reserve(6 * owned_nodes_.size());
   auto node = owned_nodes_.begin();
@@ -143,7 +148,7 @@ void System::save(const Motions& motions, std::string_view name, Snapshot& snaps
     ++node;
   }
   add_still(owned_nodes_.end());
-  save_nodes(std::move(own), 6, name, snapshot);
+  return own;
 }
 
 System::Motions System::restore_motions(const Snapshot& snapshot, std::string_view name) const {

@@ -74,18 +74,18 @@ void System::gather_nodes(std::span<const double> own, std::size_t of_node,
   });
 }
 
-// Writes numbers of all nodes, given those of the nodes of this rank.
-void System::save_nodes(std::vector<double> own, std::size_t of_node, std::string_view name,
-                        Snapshot& snapshot) const {
+// Writes numbers of all nodes, given what finds those of the nodes of this rank.
+void System::save_nodes(std::function<std::vector<double>()> find_own, std::size_t of_node,
+                        std::string_view name, Snapshot& snapshot) const {
   const std::size_t nodes = index(model_.nodes().size());
-  if (snapshot.is_shared() && comm_.size() > 1) {
+  if (snapshot.is_shared()) {
     RowRanges rows;
     for (const int node : owned_nodes_) append_row(rows, index(node));
-    snapshot.add_table({std::string(name), nodes, of_node, std::move(rows), std::move(own)});
+    snapshot.add_table({std::string(name), nodes, of_node, std::move(rows), std::move(find_own)});
     return;
   }
   std::vector<double> all(comm_.is_root() ? nodes * of_node : 0);
-  gather_nodes(own, of_node, all);
+  gather_nodes(find_own(), of_node, all);
   snapshot.set(name, std::move(all));
 }
 
@@ -139,10 +139,11 @@ void System::synchronise(model::State& state, std::span<const int> nodes) const 
 
 void System::save(const model::Coordinates& values, std::string_view name,
                   Snapshot& snapshot) const {
-  if (snapshot.is_for_memory() || comm_.size() == 1 || values.empty()) {
+  const bool is_whole = comm_.size() == 1 && !snapshot.is_shared();
+  if (snapshot.is_for_memory() || is_whole || values.empty()) {
     snapshot.set(name, values);
   } else {
-    save_nodes(own_slots(values), 12, name, snapshot);
+    save_nodes([this, &values] { return own_slots(values); }, 12, name, snapshot);
   }
 }
 
@@ -252,12 +253,12 @@ void System::save_carried(Snapshot& snapshot) const {
   const auto total = static_cast<std::size_t>(layout_.rows().total());
   if (!carried_) {
     snapshot.set(name, {});
-  } else if (snapshot.is_shared() && comm_.size() > 1) {
+  } else if (snapshot.is_shared()) {
     RowRanges rows;
     for (std::size_t row = 0; row < carried_->size(); ++row) {
       append_row(rows, static_cast<std::size_t>(layout_.rows().global(row)));
     }
-    snapshot.add_table({name, total, 1, std::move(rows), *carried_});
+    snapshot.add_table({name, total, 1, std::move(rows), [this] { return *carried_; }});
   } else {
     std::vector<double> all(total, nothing);
     for (std::size_t row = 0; row < carried_->size(); ++row) {
@@ -291,16 +292,16 @@ std::size_t System::first_entry() const {
 void System::save_matrix(Snapshot& snapshot) const {
   const auto mine = std::as_const(*matrix_).values();
   snapshot.set("matrix/ranks", comm_.size());
-  if (snapshot.is_for_memory() || comm_.size() == 1) {
+  if (snapshot.is_for_memory()) {
     snapshot.set("matrix/values", mine);
   } else {
-    internal_check(snapshot.is_shared(), "a matrix of several ranks is written by all of them");
+    internal_check(snapshot.is_shared(), "a matrix is written by all ranks");
     // the ranks one after the other
     snapshot.add_table({"matrix/values",
                         static_cast<std::size_t>(matrix_->total_entries()),
                         1,
                         {{first_entry(), mine.size()}},
-                        {mine.begin(), mine.end()}});
+                        [mine] { return std::vector<double>(mine.begin(), mine.end()); }});
   }
   if (!tangent_point_.empty()) save(tangent_point_, "matrix/point", snapshot);
 }

@@ -1,5 +1,4 @@
 #include <culm/assembly/system.hpp>
-#include <culm/model/reaction_source.hpp>
 
 #include "block_values.hpp"
 
@@ -47,10 +46,8 @@ Vec6 System::equation_reaction(const std::string& constraint, int node,
   for (const auto& batch : model_.constraint_batches()) {
     reaction += batch->reaction(node, state, constraint);
   }
-  for (const auto& load : model_.loads()) {
-    if (const auto* source = dynamic_cast<const model::ReactionSource*>(load.get())) {
-      reaction += source->reaction(node, state, constraint);
-    }
+  for (const model::ReactionSource* source : reaction_sources_) {
+    reaction += source->reaction(node, state, constraint);
   }
   return reaction;
 }

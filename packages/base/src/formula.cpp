@@ -82,6 +82,15 @@ void Formula::set_text(const std::string& text) {
   }
 }
 
+bool Formula::uses(const std::string& variable) const {
+  if (mistake_) return false;
+  try {
+    return parser_->parser.GetUsedVar().contains(variable);
+  } catch (const mu::ParserError&) {
+    return false;
+  }
+}
+
 Formula::Result Formula::evaluate() const {
   if (mistake_) return {0.0, 0, mistake_};
   try {

@@ -23,11 +23,16 @@ void give_back(std::uintptr_t from, std::uintptr_t to) {
 
 }  // namespace
 
+void fail_to_allocate() {
+  if (const std::new_handler handler = std::get_new_handler()) handler();
+  throw std::bad_alloc();
+}
+
 // Systems of before Linux 6.7 do not place maps where large pages begin.
 void* allocate_pages(std::size_t bytes) {
   void* const found = ::mmap(nullptr, bytes + large_page, PROT_READ | PROT_WRITE,
                              MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (found == MAP_FAILED) throw std::bad_alloc();
+  if (found == MAP_FAILED) fail_to_allocate();
   const auto first = reinterpret_cast<std::uintptr_t>(found);
   const std::uintptr_t begin = up(first, large_page);
   give_back(first, begin);

@@ -39,8 +39,8 @@ TEST(Snapshot, TablesOfAllRanksFollowAndAreNumbersThen) {
     snapshot.set("own", {1.0, 2.0});
     snapshot.set_text("title", title);
     // of the first table this rank has one row, of the second none
-    snapshot.add_table({"first", 2, 3, {{1, 1}}, {4.0, 5.0, 6.0}});
-    snapshot.add_table({"second", 1, 1, {}, {}});
+    snapshot.add_table({"first", 2, 3, {{1, 1}}, [] { return std::vector{4.0, 5.0, 6.0}; }});
+    snapshot.add_table({"second", 1, 1, {}, [] { return std::vector<double>(); }});
     std::string bytes = snapshot.encode();
     EXPECT_EQ(bytes.size() % sizeof(double), 0);
     const std::array<double, 7> numbers{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};

@@ -241,7 +241,15 @@ bool SlotLoad::has_potential() const { return amplitude_.is_constant() && !follo
 double SlotLoad::stored_energy(const model::Coordinates& q) const {
   if (!has_potential()) return 0.0;
   double work = 0.0;
-  for (std::size_t i = 0; i < placement_.items.size(); ++i) {
+  for (const Free& item : free_) {
+    if (!placement_.owned[index(item.local)]) continue;
+    const auto slots = model::NodeTable::slots(q, item.node);
+    work += item.force.dot(slots.col(0));
+    if (!item.on_directors) continue;
+    const auto forces = forces_of(item).rightCols<3>();
+    work += forces.cwiseProduct(slots.rightCols<3>()).sum();
+  }
+  for (const std::size_t i : others_) {
     if (!placement_.owned[i]) continue;
     const Item& item = local(i);
     for (std::size_t a = 0; a < item.nodes.size(); ++a) {

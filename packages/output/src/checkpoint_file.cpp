@@ -118,6 +118,7 @@ class CheckpointFile::Writer {
     demand(errno == 0);
     return place;
   }
+  void fill_room(std::span<const double> numbers) { write(std::as_bytes(numbers)); }
   void finish(std::uint64_t sum) {
     flush();
     header_.magic = checkpoint_magic;
@@ -160,6 +161,7 @@ CheckpointFile::~CheckpointFile() = default;
 const std::filesystem::path& CheckpointFile::name() const { return writer_->name(); }
 void CheckpointFile::take(std::string_view piece) { writer_->take(piece); }
 std::uint64_t CheckpointFile::make_room(std::uint64_t count) { return writer_->make_room(count); }
+void CheckpointFile::fill_room(std::span<const double> numbers) { writer_->fill_room(numbers); }
 
 void CheckpointFile::finish(std::uint64_t sum) {
   writer_->finish(sum);

@@ -80,6 +80,15 @@ TEST(CheckpointFile, NumbersThatOthersWriteFollowTheContent) {
       "8 bytes." + std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
   EXPECT_EQ(read_checkpoint(path), expected);
   const std::string sound = read_text_file(path);
+  {
+    CheckpointFile file(path);
+    file.take("8 bytes.");
+    file.make_room(numbers.size());
+    file.fill_room(all.first(2));
+    file.fill_room(all.subspan(2));
+    file.finish(sum_of_numbers(all));
+  }
+  EXPECT_EQ(read_text_file(path), sound);
   for (std::size_t i = 0; i < sound.size(); ++i) {
     std::string damaged = sound;
     damaged[i] = static_cast<char>(damaged[i] ^ 0x10);

@@ -8,24 +8,40 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace culm::simulation {
 namespace {
 
 std::uint64_t numbers_in(const Snapshot::Table& table) { return table.rows * table.width; }
 
-// @return their checksum
-std::uint64_t write_tables(const parallel::Comm& comm, const std::filesystem::path& name,
-                           std::uint64_t place, const Snapshot& snapshot) {
-  parallel::SharedFile file(comm, name);
+// One table after the other, so that not all of them are in memory together.
+// @param write  given a table, its numbers, and how many numbers are before it
+// @return the checksum of what this rank has
+template <class Write>
+std::uint64_t write_tables(const Snapshot& snapshot, const Write& write) {
   std::uint64_t sum = 0;
   std::uint64_t before = 0;
   for (const Snapshot::Table& table : snapshot.tables()) {
-    file.write(place + before * sizeof(double), table.width, table.own, table.numbers);
-    sum += output::sum_of_rows(table.own, table.width, table.numbers, before);
+    const std::vector<double> numbers = table.find();
+    write(table, numbers, before);
+    sum += output::sum_of_rows(table.own, table.width, numbers, before);
     before += numbers_in(table);
   }
+  return sum;
+}
+
+std::uint64_t write_shared_tables(const parallel::Comm& comm, const std::filesystem::path& name,
+                                  std::uint64_t place, const Snapshot& snapshot) {
+  parallel::SharedFile file(comm, name);
+  const std::uint64_t sum = write_tables(
+      snapshot,
+      [&](const Snapshot::Table& table, std::span<const double> numbers, std::uint64_t before) {
+        file.write(place + before * sizeof(double), table.width, table.own, numbers);
+      });
   file.sync();
   return comm.wrapping_sum(sum);
 }
@@ -44,10 +60,13 @@ void write_shared_checkpoint(const parallel::Comm& comm, const std::filesystem::
     place = file->make_room(count);
   });
   std::uint64_t sum = 0;
-  if (!snapshot.tables().empty()) {
+  if (comm.size() == 1) {
+    sum = write_tables(snapshot, [&](const Snapshot::Table&, std::span<const double> numbers,
+                                     std::uint64_t) { file->fill_room(numbers); });
+  } else if (!snapshot.tables().empty()) {
     const std::string name = comm.broadcast(file ? file->name().string() : std::string());
     comm.broadcast(std::span(&place, 1));
-    sum = write_tables(comm, name, place, snapshot);
+    sum = write_shared_tables(comm, name, place, snapshot);
   }
   on_root(comm, [&] { file->finish(sum); });
 }

@@ -1,5 +1,6 @@
 #include <culm/analysis/dynamics.hpp>
 #include <culm/base/error.hpp>
+#include <culm/base/file_pages.hpp>
 #include <culm/coupling/partner_error.hpp>
 #include <culm/port/report.hpp>
 #include <culm/simulation/input_files.hpp>
@@ -23,6 +24,12 @@
 
 namespace culm::simulation {
 namespace {
+
+// What has read decks, built models and prepared analyses is not needed in their steps.
+void give_back_pages_of_start(const model::Model& model) {
+  constexpr int many_nodes = 10'000;  // a step of theirs takes as long as giving back
+  if (model.nodes().size() >= many_nodes) give_back_file_pages();
+}
 
 bool is_numerical(const Error& error) {
   return dynamic_cast<const NumericalError*>(&error) != nullptr ||
@@ -175,6 +182,9 @@ void Simulation::run(const RunSettings& settings, const StopRequest& request,
     }
     if (served != nullptr) served->end("");
   } catch (const Error& error) {
+    // a bug may show on one rank alone, and nobody would join it in what follows
+    const bool is_bug = dynamic_cast<const InternalError*>(&error) != nullptr;
+    if (is_bug && p.comm.size() > 1) throw;
     // short, and without the command that is for the user: a partner that is stuck does not take a
     // long message over MPI
     const std::string why = error.what();
@@ -203,6 +213,7 @@ void Simulation::run_analyses(model::State& state, RunObserver& observer, Result
   for (std::size_t i = first; i < entries.size(); ++i) {
     const bool resumes = from != nullptr && i == first;
     Phase& phase = p.phases.enter(i, p.comm, p.ledger);
+    give_back_pages_of_start(*phase.model);
     if (!resumes) start_analysis(i, state);
     phase.system->synchronise(state);
     p.let_watch(files, entries[i], !resumes);

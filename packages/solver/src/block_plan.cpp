@@ -25,6 +25,8 @@ class Planner {
         graph_(couple(blocks_, block_of_)),
         first_row_(blocks_.sizes.size()),
         groups_(order_groups(graph_, host, first_kept)) {
+    blocks_.rows = std::vector<long long>();  // of what is asked no more, memory goes back
+    blocks_.columns = std::vector<long long>();
     std::exclusive_scan(blocks_.sizes.begin(), blocks_.sizes.end(), first_row_.begin(), 0);
     place_blocks();
     find_panels();

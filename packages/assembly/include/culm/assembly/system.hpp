@@ -7,6 +7,7 @@
 #include <culm/base/ledger.hpp>
 #include <culm/base/snapshot.hpp>
 #include <culm/model/model.hpp>
+#include <culm/model/reaction_source.hpp>
 
 #include <algorithm>
 #include <array>
@@ -161,7 +162,8 @@ class System {
   void hold_back(double share) { held_share_ = share; }
   /// Chooses the scale of multipliers from the tangent at a state, so that force and constraint
   /// rows have entries of one size. @source formulation 4.2
-  void choose_multiplier_scale(const model::State& state, const Stencil& stencil);
+  void choose_multiplier_scale(const model::State& state, const Stencil& stencil,
+                               Want want = Want::residual_and_tangent);
 
   /// From now on remembers where it takes each tangent, for node_motions.
   void watch_tangents() { watches_tangents_ = true; }
@@ -221,8 +223,9 @@ class System {
   /// @param load  one of the model, with nothing to remember
   LoadShare share_of(model::Batch& load, const model::State& state) const;
   /// The same of many, which is faster than one by one.
-  std::vector<LoadShare> shares_of(std::span<model::Batch* const> loads,
-                                   const model::State& state) const;
+  /// @param theta  point of the step to state.time where loads act
+  std::vector<LoadShare> shares_of(std::span<model::Batch* const> loads, const model::State& state,
+                                   double theta = 1.0) const;
   /// Force [N] and moment [N m] of such a load at state.next on each node, on the master of one
   /// that follows it. Collective; changes neither residual() nor reactions.
   std::vector<Vec6> forces_of(model::Batch& load, const model::State& state) const;
@@ -263,8 +266,8 @@ class System {
   std::size_t memory_size() const;
   model::Target target();
   model::Target target_with_matrix();
-  void assemble_alone(model::Batch& load, const model::State& state, std::span<double> residual,
-                      std::span<double> taken) const;
+  void assemble_alone(model::Batch& load, const model::State& state, double theta,
+                      std::span<double> residual, std::span<double> taken) const;
   Vec6 equation_reaction(const std::string& constraint, int node, const model::State& state) const;
   std::pair<double, int> find_largest(double value, int place) const;
   int largest_equation(std::span<const double> rows, double largest) const;
@@ -273,8 +276,9 @@ class System {
   void find_needed_nodes();
   void gather_forces(model::State& state);
   void gather_nodes(std::span<const double> own, std::size_t of_node, std::span<double> all) const;
-  void save_nodes(std::vector<double> own, std::size_t of_node, std::string_view name,
-                  Snapshot& snapshot) const;
+  void save_nodes(std::function<std::vector<double>()> find_own, std::size_t of_node,
+                  std::string_view name, Snapshot& snapshot) const;
+  std::vector<double> own_motions(const Motions& motions) const;
   std::vector<double> own_slots(const model::Coordinates& values) const;
   void save_carried(Snapshot& snapshot) const;
   std::size_t first_entry() const;
@@ -288,6 +292,7 @@ class System {
   Layout layout_;
   std::vector<model::Batch*> batches_;
   std::vector<const model::MassSource*> masses_;
+  std::vector<const model::ReactionSource*> reaction_sources_;
   std::vector<model::Batch*> driven_;  ///< those that depend on time itself
   std::size_t driven_elements_ = 0;    ///< the first of them
   /// Effects of the batches: when they are evaluated, by what is wanted, and when they extrapolate.
@@ -308,7 +313,7 @@ class System {
   Vector residual_;
   int largest_force_row_ = -1;
   std::unique_ptr<GhostImport> ghosts_;  ///< if there are several ranks
-  std::vector<int> diagonal_;            ///< place of the diagonal entry of each owned row
+  std::vector<std::size_t> diagonal_;    ///< place of the diagonal entry of each owned row
   Sampler sampler_;
   bool carries_residuals_ = false;
   /// By owned row: impulses [N s, N m s], or in statics forces that were noted [N, N m].

@@ -43,6 +43,8 @@ class Formula {
   void add_variable(const std::string& name, double& place);
   void set_text(const std::string& text);
 
+  /// Whether the text, if it is sound, names a variable.
+  bool uses(const std::string& variable) const;
   Result evaluate() const;
 
  private:

@@ -10,6 +10,10 @@ namespace culm {
 /// Bytes from which on large pages are taken.
 constexpr std::size_t worth_large_pages = std::size_t{4} << 20;
 
+/// Does as operator new where there is no memory: calls the handler that is set for that, and
+/// throws std::bad_alloc.
+[[noreturn]] void fail_to_allocate();
+
 /// Room for so many bytes, on large pages of memory (two megabytes) where the system has them: a
 /// processor fetches ahead within a page only, and looks up where each page is. Where the system
 /// has none the pages are small. @throws std::bad_alloc

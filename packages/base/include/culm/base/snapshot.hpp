@@ -24,7 +24,7 @@ class Snapshot {
   /// What it is good for.
   enum class Use {
     files,   ///< whole on rank 0, and the same for any number of ranks
-    shared,  ///< the same, but of what is large each rank keeps its own rows, to write them itself
+    shared,  ///< the same, but what is large is found when it is written, by each rank its own rows
     memory,  ///< what each rank has, to go back within a run: no communication
   };
   explicit Snapshot(Use use = Use::files) : use_(use) {}
@@ -43,9 +43,11 @@ class Snapshot {
     std::size_t rows = 0;  ///< of all ranks
     std::size_t width = 1;
     RowRanges own;
-    std::vector<double> numbers;  ///< row after row; shape (count_rows(own) * width)
+    /// Finds them, row after row; shape (count_rows(own) * width).
+    std::function<std::vector<double>()> find;
   };
   /// All ranks add the same tables in the same order. Once decoded, each is numbers of its name.
+  /// What a table is found from has to stay until it is written.
   void add_table(Table table) { tables_.push_back(std::move(table)); }
   const std::vector<Table>& tables() const { return tables_; }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,9 +26,10 @@ class CheckpointFile {
   const std::filesystem::path& name() const;
   /// Adds to the content.
   void take(std::string_view piece);
-  /// Ends the content, which is a multiple of eight bytes then; numbers follow, which others write.
-  /// @return where they begin in the file [bytes]
+  /// Ends the content, which is a multiple of eight bytes then; numbers follow, which others write,
+  /// or fill_room() piece by piece. @return where they begin in the file [bytes]
   std::uint64_t make_room(std::uint64_t count);
+  void fill_room(std::span<const double> numbers);
   /// Gives the file its name.
   /// @param sum  of those numbers, by sum_of_numbers()
   void finish(std::uint64_t sum = 0);
