@@ -222,6 +222,12 @@ PARTS = {
         "--quiet",
         *settings("Analyses/released/Step=10", "Analyses/let down/Steps=3", "Output/Every=3"),
     ],
+    # where the mass is factored beside equations that are as large as stiffnesses before
+    "motion after statics": [
+        INPUTS / "sequence/release.xml",
+        "--quiet",
+        *settings("Analyses/released/Step=10", "Output/Every=3", "Solver/Form=Multipliers", "Solver/Linear Solver=MUMPS"),
+    ],
     "imperfection": [INPUTS / "sequence/bent_column.xml", "--quiet", *settings("Analyses/bent/Final Level=0.7")],
 }
 
@@ -247,6 +253,12 @@ def run_in_parts(name, words):
 
     test.__name__ = f"run_in_parts: {name}"
     return test
+
+
+def what_is_over_is_judged_alike(program, folder, options):
+    """Nothing moves but rounding, of which the matrix of the last step tells, that nobody has made again."""
+    program("run", INPUTS / "control/pitch_actuator.xml", "--quiet", *settings("Analyses/motion/End Time=0.08"), "--output", "over")
+    program("resume", "over", "--quiet")
 
 
 def signals_stop_within_a_step(program, folder, options):
@@ -749,6 +761,7 @@ def tests(options):
 
 
 SINGLE = [
+    what_is_over_is_judged_alike,
     signals_stop_within_a_step,
     signals_that_come_early_are_heard,
     time_allowed_is_kept,

@@ -109,7 +109,7 @@ Dynamics::Dynamics(DynamicsSettings settings, std::unique_ptr<TimeScheme> scheme
                                         : std::vector<double>()),
       predictor_(context.system),
       certificate_(context.system, scheme_->conserves(), scheme_->shows_work()),
-      pulses_(context.system.model().functions()),
+      pulses_(context.system.model()),
       corners_(context.system) {
   state.in_motion = true;
 }
@@ -138,6 +138,8 @@ void Dynamics::do_fit() {
   if (reaches_end()) {
     throw InputError(settings_.end_time, late_start(state.time, settings_.steps.end_time));
   }
+  // beside rows as stiff as those of an analysis before, masses would look like nothing
+  system().choose_multiplier_scale(state, Stencil::statics(), Want::mass);
   fit_motion();
 }
 
@@ -290,6 +292,12 @@ AnalysisReport Dynamics::do_finish() {
   certificate_.compare_last(state());
   if (!certificate_.broken().empty()) {
     const model::State& now = state();
+    const bool has_stepped = stencil_.step > 0.0;  // not where a run is resumed at its end
+    if (!has_stepped) {
+      const Stencil stencil = Stencil::midpoint(settings_.steps.step);
+      system().prepare(state(), stencil);
+      system().evaluate(now, stencil, Want::residual_and_tangent);
+    }
     certificate_.set_rounding(
         assembly::rounding_energy(system(), {now.prev, now.next, now.multipliers, now.own}));
   }

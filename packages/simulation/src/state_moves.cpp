@@ -85,6 +85,9 @@ void Simulation::start_analysis(std::size_t number, model::State& state) {
   move_state(number, state);
   const Phase& phase = p.phases.of(number);
   phase.system->forget_evaluation();
+  // a run that is resumed knows no pivots of other analyses
+  phase.linear.solver->set_pivots({});
+  phase.linear.solver->remember_pivots();
   model::Coordinates q = state.next;
   phase.system->complete(q);
   refuse_left_supports(*phase.model, q, p.deck.list("Constraints"), entry.name());

@@ -304,12 +304,16 @@ void NewtonSolver::save(Snapshot& snapshot) const {
 void NewtonSolver::restore(const Snapshot& snapshot) {
   NewtonProblem& p = *nox_->problem;
   p.expected_iterations = snapshot.integer("newton/expected iterations");
+  p.has_factors = false;  // those of now belong to another state
   const std::span<const double> kept = snapshot.numbers("newton/pivots");
   // where they do not fit, the solver begins anew
   p.linear.set_pivots(std::vector<int>(kept.begin(), kept.end()));
-  if (p.settings.refresh == Refresh::every_iteration || !snapshot.has("newton/inertia")) return;
-  p.factored_inertia = snapshot.number("newton/inertia");
-  p.has_factors = p.system.restore_matrix(snapshot) && p.linear.factor();
+  if (p.settings.refresh != Refresh::every_iteration && snapshot.has("newton/inertia")) {
+    p.factored_inertia = snapshot.number("newton/inertia");
+    p.has_factors = p.system.restore_matrix(snapshot) && p.linear.factor();
+    ++p.factorisations;
+  }
+  keep();  // the first attempt may be discarded
 }
 
 }  // namespace culm::solver

@@ -95,6 +95,8 @@ class Stepper {
   /// Time [s] or level of the accepted state.
   double time() const { return state_.time_prev; }
   int steps() const { return steps_; }
+  /// Of the last attempt.
+  virtual Stencil last_stencil() const = 0;
 
  protected:
   Context& context() const { return context_; }
@@ -135,8 +137,6 @@ class Stepper {
   virtual void explain_failure() {}
   /// Towards which level ever smaller gains lead, where they are the reason to give up.
   virtual std::optional<double> dead_end() const { return {}; }
-  /// Of the last attempt.
-  virtual Stencil last_stencil() const = 0;
   virtual AnalysisReport do_finish() = 0;
   virtual void do_save(Snapshot& snapshot) const = 0;
   virtual void do_restore(const Snapshot& snapshot) = 0;
