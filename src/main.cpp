@@ -20,6 +20,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <new>
@@ -74,13 +75,31 @@ struct Arguments {
   }
 };
 
-// An empty path is mostly a variable of a script that is not set; it would be taken for none given.
+// What is empty is mostly a variable of a script that is not set; it would be taken for none given.
 std::string refuse_empty(const std::string& path) {
   return path.empty() ? "needs a path, got ''" : "";
 }
 
 std::string refuse_no_command(const std::string& command) {
   return command.empty() ? "needs a command, got ''" : "";
+}
+
+std::string refuse_no_size(const std::string& size) {
+  return size.empty() ? "needs a size such as '16 GB', got ''" : "";
+}
+
+std::string refuse_no_time(const std::string& time) {
+  return time.empty() ? "needs a time such as 1:30:00 or '90 min', got ''" : "";
+}
+
+// That of the library names the largest number there is.
+CLI::Validator positive() {
+  const auto refuse = [](const std::string& text) -> std::string {
+    double number = 0.0;
+    const bool is_sound = CLI::detail::lexical_cast(text, number) && number > 0.0;
+    return is_sound ? "" : "needs a number above 0, got '" + text + "'";
+  };
+  return CLI::Validator(refuse, "POSITIVE");
 }
 
 template <class VerbArguments>
@@ -90,7 +109,8 @@ void add_common_options(CLI::App& verb, VerbArguments& arguments) {
       ->take_all()
       ->allow_extra_args(false);
   verb.add_option("--max-memory", arguments.memory,
-                  "Refuse models that need more: '16 GB'; the memory of the machine if not given");
+                  "Refuse models that need more: '16 GB'; the memory of the machine if not given")
+      ->check(refuse_no_size);
   verb.add_flag("--quiet", arguments.quiet, "Print warnings and errors only");
 }
 
@@ -124,7 +144,7 @@ template <class VerbArguments>
 CLI::Option* add_leader(CLI::App& verb, VerbArguments& arguments, const std::string& whence) {
   verb.add_option("--port", arguments.port, "The only port of the deck if not given");
   verb.add_option("--patience", arguments.patience, "How long it may be silent [s]; 600")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   return verb.add_option("--at", arguments.address,
                          whence + " comes to: unix:PATH, tcp:PORT, tcp:ADDRESS:PORT, or mpi:RANK");
 }
@@ -132,7 +152,8 @@ CLI::Option* add_leader(CLI::App& verb, VerbArguments& arguments, const std::str
 void add_walltime(CLI::App& verb, std::string& walltime) {
   verb.add_option("--walltime", walltime,
                   "Write a checkpoint and stop, with exit code 7, before this time is over: "
-                  "1:30:00 or '90 min'");
+                  "1:30:00 or '90 min'")
+      ->check(refuse_no_time);
 }
 
 // How a run can end. @param strict  set by --strict
@@ -153,7 +174,7 @@ void add_partner_program(CLI::App& verb, PartnerArguments& arguments) {
   verb.add_option("--ranks", arguments.ranks,
                   "culm is the first so many processes of the launcher, others are partners; with "
                   "--with it starts as many")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   constexpr const char* for_culm_itself = "";
   verb.add_option("--verdict", arguments.verdict, "File to leave the exit code in")
       ->group(for_culm_itself);
@@ -228,7 +249,7 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
                      "In place of a deck, a partner: unix:PATH, tcp:PORT, tcp:ADDRESS:PORT or "
                      "mpi:RANK");
   replay->add_option("--patience", arguments.replay.patience, "How long it may be silent [s]; 600")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   replay->callback(
       [&] { action = [&](const Comm& comm) { culm::app::replay(comm, arguments.replay); }; });
   CLI::App* serve = app.add_subcommand(
@@ -252,7 +273,7 @@ void declare_verbs(CLI::App& app, Arguments& arguments,
   openfast
       ->add_option("--blade-mass", arguments.import.turbine.blade_mass,
                    "Mass to which each blade of a turbine is scaled [kg]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   openfast->add_option("--servodyn", arguments.import.turbine.servodyn,
                        "File of ServoDyn, for the yaw spring of a turbine");
   openfast->add_flag("--quiet", arguments.import.quiet, "Do not print the report");
@@ -358,6 +379,8 @@ End act(int argc, char** argv, Arguments& arguments, bool is_inside,
         "say by --ranks how many processes it takes");
   } catch (const CLI::ParseError& error) {
     return {report(error, app, comm)};
+  } catch (const culm::InternalError& error) {
+    return report_alone(error.what(), error.exit_code());
   } catch (const culm::Error& error) {
     return report(error, !partners().started.empty(), comm);
   } catch (const std::bad_alloc&) {
@@ -373,9 +396,17 @@ End act(int argc, char** argv, Arguments& arguments, bool is_inside,
   }
 }
 
+// One of several processes would have to wait for the others to unwind, and they for it.
+[[noreturn]] void end_without_memory() {
+  std::set_new_handler(nullptr);  // what is said needs some, too
+  MPI_Abort(MPI_COMM_WORLD, report_lack_of_memory().code);
+  std::abort();
+}
+
 int run_verb(int argc, char** argv, Arguments& arguments, bool is_inside, bool& is_root) {
   const culm::simulation::Session session(argc, argv);
   const culm::parallel::Comm comm;
+  if (comm.size() > 1) std::set_new_handler(end_without_memory);
   is_root = comm.is_root();
   const End end = act(argc, argv, arguments, is_inside, comm);
   const PartnerArguments& partners = arguments.partners();
@@ -430,7 +461,7 @@ int check_printed(int code) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> words(argv + 1, argv + argc);
-  if (culm::app::is_for_python(words)) return culm::app::call_python(words);
+  if (culm::app::is_for_python(words)) return culm::app::become_python(words);
   // a request that comes while MPI starts is heeded as a later one
   std::optional<culm::simulation::StopRequest> listening;
   if (heeds_requests(words)) listening.emplace();
@@ -453,6 +484,6 @@ int main(int argc, char** argv) {
   if (!is_root) return 0;
   std::vector<std::string> drawn = {"report", folder.string()};
   if (run.quiet) drawn.emplace_back("--quiet");
-  culm::app::call_python(drawn);
-  return code;
+  const int page = culm::app::call_python(drawn);
+  return code == 0 ? page : code;
 }

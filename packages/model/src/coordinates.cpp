@@ -1,3 +1,4 @@
+#include <culm/base/large_vector.hpp>
 #include <culm/model/coordinates.hpp>
 
 #include <sys/mman.h>
@@ -7,7 +8,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 
 namespace culm::model {
 namespace {
@@ -49,12 +49,12 @@ Coordinates::Memory Coordinates::make(std::size_t room) {
   if (room == 0) return {};
   if (room < worth_pages) {
     void* const found = std::calloc(room, sizeof(double));
-    if (found == nullptr) throw std::bad_alloc();
+    if (found == nullptr) fail_to_allocate();
     return Memory(static_cast<double*>(found), Free{room});
   }
   void* const found = ::mmap(nullptr, bytes(room), PROT_READ | PROT_WRITE,
                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (found == MAP_FAILED) throw std::bad_alloc();
+  if (found == MAP_FAILED) fail_to_allocate();
   ::madvise(found, bytes(room), are_all_expected ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
   return Memory(static_cast<double*>(found), Free{room});
 }

@@ -256,6 +256,7 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
   const bool is_motion = dynamic_cast<const analysis::Dynamics*>(stepper.get()) != nullptr;
   observer.follow(stepper.get(), coupled, is_motion ? served : nullptr);
   if (!has_type(parts_->present + 1, false)) observer.keep_end();
+  give_back_pages_of_start(context.system.model());  // before the first factors
   if (from != nullptr) {
     stepper->resume(*from);
   } else {
@@ -263,6 +264,7 @@ analysis::AnalysisReport Simulation::run_analysis(const Options& entry, analysis
     observer.start(state);
     stepper->begin();
   }
+  give_back_pages_of_start(context.system.model());
   try {
     const Phase& phase = parts_->phases.of(parts_->present);
     const Ports& ports = phase.ports;

@@ -1,5 +1,7 @@
 #include "klu2.hpp"
 
+#include <culm/base/large_vector.hpp>
+
 #include <Amesos2_KLU2_FunctionMap.hpp>
 
 // The headers of KLU2 are meant to be included so. These two are not used by Amesos2 and do not
@@ -22,7 +24,6 @@ Int klu_scale(Int scale, Int n, Int* begin, Int* entries, Entry* values, double*
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 #include <random>
 
 namespace culm::solver {
@@ -125,7 +126,7 @@ bool Klu2::choose_pivots() {
   if (p.symbolic == nullptr) return false;
   p.numeric = KLU2::klu_factor<double, int>(begin_.data(), entries_.data(), values_.data(),
                                             p.symbolic, &p.common);
-  if (p.common.status == KLU_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (p.common.status == KLU_OUT_OF_MEMORY) fail_to_allocate();
   return p.numeric != nullptr;
 }
 

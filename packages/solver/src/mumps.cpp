@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
+#include <cstdlib>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -193,7 +193,8 @@ void Mumps::factor_in_workspace() {
   const auto millions = static_cast<MUMPS_INT>(std::ceil(1e-6 * entries));
   if (mumps_.lwk_user != -millions) {
     workspace_.reset();
-    workspace_.reset(new (std::nothrow) double[static_cast<std::size_t>(millions) * 1000000]);
+    const std::size_t bytes = static_cast<std::size_t>(millions) * 1000000 * sizeof(double);
+    workspace_.reset(static_cast<double*>(std::malloc(bytes)));
     mumps_.wk_user = workspace_.get();
     // Without memory here, MUMPS asks for its own: what it then lacks it tells all ranks.
     mumps_.lwk_user = workspace_ ? -millions : 0;

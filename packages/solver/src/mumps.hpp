@@ -10,6 +10,7 @@
 
 #include <dmumps_c.h>
 
+#include <cstdlib>
 #include <memory>
 #include <span>
 #include <vector>
@@ -73,8 +74,12 @@ class Mumps {
   std::vector<MUMPS_INT> pivots_;     ///< place of each row, from 1; on the root
   std::vector<MUMPS_INT> kept_;       ///< rows, from 1
   std::vector<double> remainder_;
-  std::vector<double> reduced_;          ///< right-hand side of the kept rows, then solution
-  std::unique_ptr<double[]> workspace_;  ///< where MUMPS factors; factors stay there
+  std::vector<double> reduced_;  ///< right-hand side of the kept rows, then solution
+  // not by operator new: no memory here is no end of the program
+  struct Free {
+    void operator()(double* numbers) const { std::free(numbers); }
+  };
+  std::unique_ptr<double[], Free> workspace_;  ///< where MUMPS factors; factors stay there
   bool analysed_ = false;
 };
 

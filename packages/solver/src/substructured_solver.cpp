@@ -1,5 +1,7 @@
 #include "substructured_solver.hpp"
 
+#include <culm/parallel/shared_failure.hpp>
+
 #include "block_lu.hpp"
 #include "guarded_block_lu.hpp"
 #include "matrix_checks.hpp"
@@ -175,11 +177,14 @@ class SubstructuredSolver final : public LinearSolver {
     parts_.gather_values();
     const bool is_first = piece_.hosts().empty();
     if (is_first) remember_once();
-    bool sound = factor_piece();
+    bool sound = false;
+    parallel::together(comm_, [&] { sound = factor_piece(); });
     bool is_new = is_first;
     if (comm_.max(sound ? 0 : 1) != 0) {
       remember_once();  // on all ranks
-      if (!sound && !is_first) sound = is_new = piece_.factor_with_new_hosts();
+      parallel::together(comm_, [&] {
+        if (!sound && !is_first) sound = is_new = piece_.factor_with_new_hosts();
+      });
       if (comm_.max(sound ? 0 : 1) != 0) {
         restore_hosts();
         return false;
@@ -189,7 +194,9 @@ class SubstructuredSolver final : public LinearSolver {
     if (parts_.interface_size() == 0) return true;
     parts_.gather_interface(piece_.remainder());
     if (between_) between_->fill(parts_);
-    return comm_.max(!interface_ || interface_->factor() ? 0 : 1) == 0;
+    bool joins = true;
+    parallel::together(comm_, [&] { joins = !interface_ || interface_->factor(); });
+    return comm_.max(joins ? 0 : 1) == 0;
   }
 
   // Where a factorisation failed: the ones of a matrix that has none leave no trace.
@@ -201,7 +208,7 @@ class SubstructuredSolver final : public LinearSolver {
   bool factor_whole() {
     ++by_whole_;
     const bool is_sound = whole().factor();
-    if (is_sound) remember_once();
+    if (is_sound || uses_whole_) remember_once();
     uses_whole_ = is_sound;
     return is_sound;
   }
