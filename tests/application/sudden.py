@@ -37,6 +37,41 @@ def pulse(name, speed, impulse, **function):
                 check=ends_with("speed vx [m/s]", speed, 1e-9))
 
 
+def blown(step, momentum, says):
+    """A free bar of 1 kg in a field that goes to and fro in 0.0102 s."""
+    bar = entry("tube", Type="Stiffness Values", EA="1e5", GA1="1e5", GA2="1e5", EI1="10", EI2="10", GIp="10", rhoA="1", rhoI1="1e-3", rhoI2="1e-3")
+    line = entry("Curve", Type="Line", From="{0, 0, 0}", To="{1, 0, 0}", Elements="2", Up="{0, 0, 1}")
+    structure = entry("bar", Type="Beam", Section="tube", Fidelity="Rigid").replace("</ParameterList>", f"{line}</ParameterList>")
+    deck = (listed("Sections", bar) + listed("Structures", structure) +
+            listed("Fields", entry("gusts", Type="Formula", Z="sin(2*pi*t/0.0102)")) +
+            listed("Loads", entry("wind", Type="Field Force", Structure="bar", Field="gusts", Function="Constant")) +
+            listed("Analyses", entry("motion", Type="Dynamic", Step=step, End_Time="0.255")) +
+            listed("Output", listed("History", entry("swing", Type="Momentum"))))
+
+    def check(folder, _):
+        largest = max(abs(row["swing lz [N s]"]) for row in rows(folder))
+        return "" if abs(largest - momentum) < 0.02 * momentum else f"momentum is {largest}, not {momentum}"
+
+    return Case(f"a field that goes to and fro, by steps of {step} s", 0, args=RUN, leaves=["out"], says=says,
+                errors=None if says else [], deck=f'<ParameterList name="culm">{deck}</ParameterList>', check=check)
+
+
+def pushed_block(settings, place, says):
+    """A block of 50 N on a spring of 1 kN/m, pushed by 40 N and left: friction of 15 N holds it where it can."""
+    block = entry("block", Type="Rigid Body", Position="{0, 0, 0.0495}", Mass="5", Inertia="{1, 1, 1}")
+    turns = [entry(f"turn {axis}", Type="Rotation", Node="block", Axis=axis) for axis in ("{1, 0, 0}", "{0, 1, 0}", "{0, 0, 1}")]
+    loads = [entry("weight", Type="Gravity", Acceleration="{0, 0, -10}"),
+             entry("floor", Type="Plane Contact", Node="block", Radius="0.05", Area="1", Stiffness="1e5", Friction="0.3"),
+             entry("spring", Type="Directed Ground Spring", Node="block", Direction="{1, 0, 0}", Stiffness="1000"),
+             entry("push", Type="Force", Node="block", Force="{1, 0, 0}", Function="f")]
+    deck = (listed("Structures", block) + listed("Constraints", *turns) + listed("Loads", *loads) +
+            listed("Functions", entry("f", Type="Table", Times="{0, 1, 2}", Values="{0, 40, 0}")) +
+            listed("Analyses", entry("slide", Type="Static", Final_Level="2", **settings)) +
+            listed("Output", listed("History", entry("place", Type="Displacement", Node="block"))))
+    return Case(f"friction and a load that turns back, {settings}", 0, args=RUN, leaves=["out"], says=says, errors=None if says else [],
+                deck=f'<ParameterList name="culm">{deck}</ParameterList>', check=ends_with("place ux [m]", place, 1e-5))
+
+
 FITS = ["initial velocities were made to fit the constraints"]
 
 
@@ -188,6 +223,15 @@ CASES = [
     switched_on("a formula", Type="Expression", Expression="t > 9 ? 1 : 0"),
     pulse("about the end of a step", 0, 0.04, Type="Table", Times="{0, 0.56, 0.6, 0.64, 1}", Values="{0, 0, 1, 0, 0}"),
     pulse("of one step and a half", 0.1, 0.15, Type="Square", Duration="0.15"),
+    Case("a pulse that only the middle of a step sees acts", 0, args=RUN, leaves=["out"], never=["never acts"],
+         deck=motion(entry("f", Type="Table", Times="{0, 0.011, 0.015, 0.019}", Values="{0, 0, 1, 0}"), 0.01, 0.05, FORCE),
+         says=["warning: function 'f' has a pulse that begins and ends within the time step from 0.01 s to 0.02 s"],
+         check=ends_with("speed vx [m/s]", 0.01, 1e-12)),
+    blown("0.0005", 0.0102 / math.pi, []),
+    blown("0.01", 0.1623, ["warning: the field of Field Force 'wind' goes up and down within the time step from 0 s to 0.01 s"]),
+    pushed_block({"Steps": "4"}, 0.015, []),
+    pushed_block({"Steps": "3", "Levels": "{1}"}, 0.015, []),
+    pushed_block({"Steps": "3"}, 0.0114, ["warning: function 'f' turns between the levels 0.666667 and 1.33333 of a step, 0.33 of its largest value"]),
     driven("a ramp that ends with a step", 0.01, 2, 0.1, 0),
     driven("a ramp that ends within a step", 0.03, 2.1, 0.1, 0),
     driven("a table", 0.01, 2, 0.05, 0.05, PIECES, Function="f"),

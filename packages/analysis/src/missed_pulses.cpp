@@ -28,6 +28,8 @@ constexpr double notable_impulse = 0.01;
 // what may be lost of an impulse there, over a usual step.
 constexpr double notable_leap = 0.3;
 constexpr double loss_at_jump = 0.01;
+// Of statics, where the way counts: sixteen steps per period of a sine pass over less of its turns.
+constexpr double notable_turn = 0.02;
 
 // On both sides of a time: functions may jump there.
 std::pair<double, double> values_beside(const model::Amplitude& function, double time) {
@@ -93,6 +95,34 @@ bool is_unresolved(const Samples& values, double& size) {
   return height > notable_arc * size && beyond > notable_height * size;
 }
 
+// How far a function goes beyond both of its values at the ends of a step; `size` grows with what
+// is seen.
+double beyond_ends(const model::Amplitude& function, double start, double end, double& size) {
+  const double first = function.at(start);
+  const double last = function.at(end);
+  double low = std::min(first, last);
+  double high = std::max(first, last);
+  const double lowest = low;
+  const double highest = high;
+  const auto see = [&](double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+    size = std::max(size, std::abs(value));
+  };
+  if (function.corners().empty()) {
+    std::ranges::for_each(sample(function, start, end), see);
+  } else {
+    const std::vector<double>& corners = function.corners();
+    auto corner = std::ranges::upper_bound(corners, start);
+    for (; corner != corners.end() && *corner < end; ++corner) {
+      const auto [before, after] = values_beside(function, *corner);
+      see(before);
+      see(after);
+    }
+  }
+  return std::max(high - highest, lowest - low);
+}
+
 // By straight lines between samples.
 MissedPulses::Impulse impulse_of(const Samples& values, const model::Amplitude& function,
                                  double start, double end) {
@@ -138,14 +168,34 @@ MissedPulses::Impulse& MissedPulses::Impulse::operator+=(const Impulse& other) {
   return *this;
 }
 
-MissedPulses::MissedPulses(const std::map<std::string, model::Amplitude>& functions) {
-  for (const auto& [name, function] : functions) {
+MissedPulses::MissedPulses(const model::Model& model) {
+  const auto add = [&](const std::string& name, const model::Amplitude& function) {
     const bool is_smooth = function.corners().empty();
     if (is_smooth ? !function.is_function_of_time() || function.is_constant()
                   : function.corners().size() < 2) {
-      continue;
+      return;
     }
     candidates_.push_back({name, function, largest_corner(function), {}, false});
+  };
+  for (const auto& [name, function] : model.functions()) {
+    add(fmt::format("function '{}'", name), function);
+  }
+  for (const auto& [name, variation] : model.variations()) add(name, variation);
+}
+
+void MissedPulses::check_turns(double start, double end, Findings& findings) {
+  for (Candidate& candidate : candidates_) {
+    if (candidate.is_told) continue;
+    const double beyond = beyond_ends(candidate.function, start, end, candidate.size);
+    if (beyond <= notable_turn * candidate.size) continue;
+    candidate.is_told = true;
+    findings.warn("missed turn",
+                  fmt::format("{} turns between the levels {:.6g} and {:.6g} of a step, {:.2g} of "
+                              "its largest value beyond what it is there: friction, plastic flow "
+                              "and soil that remembers do not see it; put the turn among 'Levels', "
+                              "or take more 'Steps'",
+                              candidate.name, start, end, beyond / candidate.size),
+                  end);
   }
 }
 
@@ -172,11 +222,10 @@ void MissedPulses::check(double start, double end, Findings& findings) {
     const model::Amplitude& function = candidate.function;
     const auto tell = [&](std::string_view what, std::string_view fate) {
       candidate.is_told = true;
-      findings.warn(
-          "missed pulse",
-          fmt::format("function '{}' {} within the time step from {:.6g} s to {:.6g} s: {}",
-                      candidate.name, what, start, end, fate),
-          end);
+      findings.warn("missed pulse",
+                    fmt::format("{} {} within the time step from {:.6g} s to {:.6g} s: {}",
+                                candidate.name, what, start, end, fate),
+                    end);
     };
     if (function.corners().empty()) {
       const Samples values = sample(function, start, end);
@@ -192,7 +241,8 @@ void MissedPulses::check(double start, double end, Findings& findings) {
       const double at_start = begins ? 0.0 : function.at(std::nextafter(start, -HUGE_VAL));
       if (is_missed(function, candidate.size, at_start, start, end)) {
         tell("has a pulse that begins and ends",
-             "it acts in part or not at all; take steps that are shorter than the pulse");
+             "loads take its value at the middle of the step for the whole of it, so that it acts "
+             "too much, in part or not at all; take steps that are shorter than the pulse");
       }
     }
     const double size = candidate.impulse.size;

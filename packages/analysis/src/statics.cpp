@@ -92,6 +92,14 @@ std::unique_ptr<Stepper> Statics::make(const Options& options, Context& context,
   return std::make_unique<Statics>(std::move(settings), context, state);
 }
 
+Statics::Statics(StaticsSettings settings, Context& context, model::State& state)
+    : Stepper(context, state), settings_(std::move(settings)) {
+  const model::Model& model = context.system.model();
+  const bool remembers = std::ranges::any_of(
+      model.batches(), [](const model::Batch* batch) { return batch->depends_on_path(); });
+  if (remembers) pulses_.emplace(model);
+}
+
 // The next level on the way, not passing one that must be met; leaves no sliver before it.
 double Statics::next_level(double level, double increment) const {
   double bound = settings_.final_level;
@@ -183,6 +191,7 @@ bool Statics::flies_away() {
 
 void Statics::do_accept(const StepReport& report) {
   watch_stability(report);
+  if (pulses_) pulses_->check_turns(state().time_prev, state().time, context().findings);
   system().accept(state());
   if (hangs_) note_hanging();
   if (report.outcome.iterations <= settings_.easy_iterations && report.increment >= increment_) {
@@ -228,6 +237,7 @@ void Statics::do_save(Snapshot& snapshot) const {
   snapshot.set("statics/unstable pair", has_unstable_pair_ ? 1 : 0);
   snapshot.set("statics/hangs", hangs_ ? 1 : 0);
   trend_.save(snapshot);
+  if (pulses_) pulses_->save(snapshot);
 }
 
 void Statics::do_restore(const Snapshot& snapshot) {
@@ -240,6 +250,7 @@ void Statics::do_restore(const Snapshot& snapshot) {
   hangs_ = snapshot.integer("statics/hangs") != 0;
   newton().hold_free(hangs_);
   trend_.restore(snapshot);
+  if (pulses_) pulses_->restore(snapshot);
 }
 
 // A pivot that is nothing but rounding has any sign, as where a structure may be turned freely.

@@ -32,12 +32,16 @@ Amplitude square(double duration) {
       .with_corners({0.0, duration});
 }
 
+using Check = void (MissedPulses::*)(double, double, Findings&);
+
 // Warnings of steps of one length from 0 to 2.
-int warnings(const Amplitude& function, double step) {
+int warnings(const Amplitude& function, double step, Check check = &MissedPulses::check) {
   std::ostringstream printed;
   Findings findings(Log{printed, LogLevel::info});
-  MissedPulses pulses({{"hit", function}});
-  for (int n = 0; n * step < 2.0; ++n) pulses.check(n * step, (n + 1) * step, findings);
+  model::Model model;
+  model.add_function("hit", function);
+  MissedPulses pulses(model);
+  for (int n = 0; n * step < 2.0; ++n) (pulses.*check)(n * step, (n + 1) * step, findings);
   int count = 0;
   const std::string text = printed.str();
   for (auto at = text.find("'hit'"); at != std::string::npos; at = text.find("'hit'", at + 1)) {
@@ -107,6 +111,19 @@ TEST(MissedPulses, ImpulsesThatStepsLoseOrMakeAreTold) {
                             +[](double t) { return std::exp(-100.0 * t); }}) {
     EXPECT_EQ(warnings(Amplitude::of_time(pulse), 0.1), 1);
   }
+}
+
+TEST(MissedPulses, TurnsWithinStepsOfStaticsAreTold) {
+  const Amplitude up_and_down = table({0.0, 1.0, 2.0}, {0.0, 1.0, 0.0});
+  const auto turns = [](const Amplitude& function, double step) {
+    return warnings(function, step, &MissedPulses::check_turns);
+  };
+  EXPECT_EQ(turns(up_and_down, 0.5), 0);
+  EXPECT_EQ(turns(up_and_down, 1.0), 0);
+  for (const double step : {2.0 / 3.0, 0.4, 2.0 / 9.0}) EXPECT_EQ(turns(up_and_down, step), 1);
+  EXPECT_EQ(turns(table({0.0, 0.3, 1.1}, {0.0, 1.0, 2.0}), 0.2), 0);  // corners that are no turns
+  EXPECT_EQ(turns(sine(1.0), 0.05), 0);
+  EXPECT_EQ(turns(sine(1.0), 0.11), 1);
 }
 
 TEST(MissedPulses, PulsesOfFormulasAreTold) {

@@ -1,3 +1,4 @@
+#include <culm/base/error.hpp>
 #include <culm/load/field_load.hpp>
 
 #include "both_frames.hpp"
@@ -8,6 +9,18 @@
 
 namespace culm::load {
 namespace {
+
+// One number for all components, by weights that no formula is made of.
+model::Amplitude variation_of(const model::SharedField& field, const Vec3& place) {
+  const Vec3 weights(1.0, 0.73, 0.58);
+  return model::Amplitude::of_time([=](double time) {
+    try {
+      return weights.dot(field->value(place, time));
+    } catch (const InputError&) {
+      return 0.0;  // not finite at a time for which no step may ask
+    }
+  });
+}
 
 void build_field_force(const Options& options, model::BuildContext& context) {
   const auto function = model::find_function(options, context);
@@ -20,6 +33,12 @@ void build_field_force(const Options& options, model::BuildContext& context) {
   for (model::LinePoint point : points) {
     point.marker.offset += model::vector(options, "Offset");
     load->add(point.marker, options.number("Factor") * point.length);
+  }
+  if (field->varies_in_time()) {
+    const int first = points.front().marker.nodes.front();
+    const Vec3 place = model::NodeTable::slots(context.model.nodes().reference(), first).col(0);
+    context.model.add_variation("the field of " + load->effect().quoted(),
+                                variation_of(field, place));
   }
   context.model.add_load(std::move(load));
 }

@@ -4,6 +4,7 @@
 
 #include "vector_fields.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -61,6 +62,10 @@ class FormulaField final : public VectorField {
       vector[static_cast<Eigen::Index>(i)] = one;
     }
     return vector;
+  }
+
+  bool varies_in_time() const override {
+    return std::ranges::any_of(formulas_, [](const auto& one) { return one->formula.uses("t"); });
   }
 
   // differences of fourth order: their error is as small as their rounding

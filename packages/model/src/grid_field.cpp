@@ -43,6 +43,7 @@ class GridField final : public VectorField {
   Vec3 value(const Vec3& place, double time) const override {
     return sum(brackets(place, time), dimensions);
   }
+  bool varies_in_time() const override { return axes_[0].size() > 1; }
   Mat3 gradient(const Vec3& place, double time) const override {
     const auto found = brackets(place, time);
     Mat3 gradient;

@@ -55,6 +55,10 @@ void Model::add_function(const std::string& name, const Amplitude& function) {
   functions_.emplace(name, function);
 }
 
+void Model::add_variation(const std::string& name, const Amplitude& variation) {
+  variations_.emplace(name, variation);
+}
+
 MassBatch& Model::masses(const Effect& effect) {
   for (const auto& batch : element_batches_) {
     auto* same = dynamic_cast<MassBatch*>(batch.get());

@@ -9,6 +9,7 @@ class UniformField final : public VectorField {
  public:
   explicit UniformField(const Vec3& vector) : vector_(vector) {}
   Vec3 value(const Vec3&, double) const override { return vector_; }
+  bool varies_in_time() const override { return false; }
   Mat3 gradient(const Vec3&, double) const override { return Mat3::Zero(); }
 
  private:

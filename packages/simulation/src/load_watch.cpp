@@ -80,7 +80,8 @@ void LoadWatch::begin(const model::Model& model) {
   }
 }
 
-void LoadWatch::step(const assembly::System& system, const model::State& state, double rounding) {
+void LoadWatch::step(const assembly::System& system, const model::State& state, double theta,
+                     double rounding) {
   has_stepped_ = true;
   std::vector<Load*> looked_at;
   std::vector<model::Batch*> batches;
@@ -90,7 +91,7 @@ void LoadWatch::step(const assembly::System& system, const model::State& state, 
     batches.push_back(load.batch);
   }
   if (batches.empty()) return;
-  const std::vector<assembly::LoadShare> shares = system.shares_of(batches, state);
+  const std::vector<assembly::LoadShare> shares = system.shares_of(batches, state, theta);
   for (std::size_t i = 0; i < looked_at.size(); ++i) {
     Load& load = *looked_at[i];
     const assembly::LoadShare& share = shares[i];

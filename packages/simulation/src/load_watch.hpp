@@ -26,8 +26,10 @@ class LoadWatch {
   /// Starts anew with the loads of a model, which must outlive this.
   void begin(const model::Model& model);
   /// After an accepted step. Collective; costs nothing once all loads have moved something.
+  /// @param theta     point of the step where loads act
   /// @param rounding  force that rounding left out of balance, to which a partner may answer [N]
-  void step(const assembly::System& system, const model::State& state, double rounding);
+  void step(const assembly::System& system, const model::State& state, double theta,
+            double rounding);
   /// Whether any of them acted at all.
   bool any_acted() const;
   /// At the end of an analysis: adds a finding for each load that moved nothing; at the end of the

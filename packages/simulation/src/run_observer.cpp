@@ -354,11 +354,11 @@ std::string RunObserver::free_prefix() const {
   return prefix;
 }
 
-// Loads of a step, such as impulses, are asked for by both of its ends.
+// Loads of a step, such as impulses, are asked for by both of its ends, others where they act.
 void RunObserver::watch_loads(const analysis::StepReport& report, model::State& state) {
   const double accepted = state.time_prev;
   state.time_prev = report.time - report.increment;
-  loads_.step(context_->system, state, balance_.residual);
+  loads_.step(context_->system, state, stepper_->last_stencil().theta, balance_.residual);
   strips_.step(state, findings_);
   state.time_prev = accepted;
   ranges_.step(context_->system);

@@ -1,12 +1,11 @@
-/// Pulses of loads that are shorter than a time step.
+/// Pulses of loads that are shorter than a step, and turns within steps.
 #pragma once
 
 #include <culm/base/findings.hpp>
 #include <culm/base/snapshot.hpp>
-#include <culm/model/amplitude.hpp>
+#include <culm/model/model.hpp>
 
 #include <cmath>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -28,10 +27,15 @@ class MissedPulses {
     Impulse& operator+=(const Impulse& other);
   };
 
-  explicit MissedPulses(const std::map<std::string, model::Amplitude>& functions);
+  /// Of the functions of a model, and of what else varies in time.
+  explicit MissedPulses(const model::Model& model);
 
   /// Looks at the step from `start` to `end` [s]; the first call is for the first step of a motion.
   void check(double start, double end, Findings& findings);
+
+  /// Looks at a step of statics, where turns count if something remembers its way: warns once of
+  /// each function that goes beyond what it is at both ends of the step.
+  void check_turns(double start, double end, Findings& findings);
 
   /// Whether a step takes another impulse of a function without known corners than that has: by a
   /// hundredth of its largest value over a usual step [s] where it jumps, by a tenth where the step
@@ -44,7 +48,7 @@ class MissedPulses {
 
  private:
   struct Candidate {
-    std::string name;
+    std::string name;  // "function 'name'"
     model::Amplitude function;
     double size;  // of the values at the corners, or of those seen so far
     Impulse impulse;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <culm/analysis/failure_trend.hpp>
+#include <culm/analysis/missed_pulses.hpp>
 #include <culm/analysis/stepper.hpp>
 #include <culm/base/options.hpp>
 #include <culm/base/schema.hpp>
@@ -27,8 +28,7 @@ struct StaticsSettings {
 /// time in load functions. @source formulation 5.1
 class Statics final : public Stepper {
  public:
-  Statics(StaticsSettings settings, Context& context, model::State& state)
-      : Stepper(context, state), settings_(std::move(settings)) {}
+  Statics(StaticsSettings settings, Context& context, model::State& state);
 
   static Schema schema();
   static std::unique_ptr<Stepper> make(const Options& options, Context& context,
@@ -68,6 +68,7 @@ class Statics final : public Stepper {
   void note_hanging();
 
   StaticsSettings settings_;
+  std::optional<MissedPulses> pulses_;  ///< where something remembers its way
   double increment_ = 0.0;
   int determinant_sign_ = 0;     ///< of the tangent at the last equilibrium; 0 if unknown
   double first_log_size_ = 0.0;  ///< logarithm of the determinant of the first tangent

@@ -16,6 +16,7 @@ namespace culm::contact {
 class GrippingBatch : public model::MemorylessBatch, public model::LimitedHold {
  public:
   void prepare(const model::State&, const Stencil& stencil) override { stencil_ = stencil; }
+  bool depends_on_path() const override { return has_grips(); }
   std::size_t memory_size() const override { return 3 * grips_.size(); }
   void save(model::Items items, std::span<double> numbers) const override;
   void restore(std::span<const double> numbers) override;

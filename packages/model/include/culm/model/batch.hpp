@@ -87,6 +87,9 @@ class Batch {
   /// Whether it changes with time or level itself, beside the state. Of loads and constraints
   /// nobody asks: they are taken to.
   virtual bool depends_on_time() const { return false; }
+  /// Whether what items do depends on the way on which a state was reached, as that of friction and
+  /// plastic flow does, in statics too: what turns back within a step is lost.
+  virtual bool depends_on_path() const { return false; }
   /// Times of the branches by which items relax [s]; none where stress follows strain at once. An
   /// equilibrium, about which equations are linearised, is relaxed.
   virtual std::vector<double> relaxation_times() const { return {}; }

@@ -124,6 +124,9 @@ class Model {
   const std::map<std::string, Signal>& settings() const { return settings_; }
   /// Functions of the deck that are followed, by name.
   const std::map<std::string, Amplitude>& functions() const { return functions_; }
+  /// What varies in time beside functions, such as a field where it acts, by what to call it.
+  void add_variation(const std::string& name, const Amplitude& variation);
+  const std::map<std::string, Amplitude>& variations() const { return variations_; }
   const std::vector<std::unique_ptr<ConstraintBatch>>& constraint_batches() const {
     return constraint_batches_;
   }
@@ -162,6 +165,7 @@ class Model {
   std::map<std::string, std::unique_ptr<NodalInput>> inputs_;
   std::map<std::string, Signal> settings_;
   std::map<std::string, Amplitude> functions_;
+  std::map<std::string, Amplitude> variations_;
   std::vector<InitialVelocity> initial_velocities_;
   std::vector<InitialDisplacement> initial_displacements_;
   bool keeps_redundant_rows_ = false;

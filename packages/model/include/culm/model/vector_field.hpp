@@ -14,6 +14,8 @@ class VectorField {
   virtual ~VectorField() = default;
   /// May throw InputError where it is not finite.
   virtual Vec3 value(const Vec3& place, double time) const = 0;
+  /// Whether it is another one at another time.
+  virtual bool varies_in_time() const { return true; }
   /// Column j is the derivative by coordinate j of the place.
   virtual Mat3 gradient(const Vec3& place, double time) const = 0;
 };

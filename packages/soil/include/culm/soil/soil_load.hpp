@@ -58,6 +58,7 @@ class SoilLoad final : public model::MemorylessBatch, public model::Booked {
   Verdict assemble(const model::State& state, const Stencil& stencil, Want want,
                    model::Target& target) override;
   void accept(model::State& state) override;
+  bool depends_on_path() const override { return !slips_.empty(); }
   std::size_t memory_size() const override { return 3 * slips_.size(); }
   void save(model::Items items, std::span<double> numbers) const override;
   void restore(std::span<const double> numbers) override;

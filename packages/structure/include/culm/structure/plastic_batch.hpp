@@ -124,6 +124,7 @@ class PlasticBatch final : public model::Batch,
   void extrapolate(const model::State& state, const Stencil& stencil,
                    const model::Coordinates& increment) override;
 
+  bool depends_on_path() const override { return true; }
   std::size_t memory_size() const override { return flow_size * flows_.size(); }
   void save(model::Items which, std::span<double> memory) const override;
   void restore(std::span<const double> memory) override;
