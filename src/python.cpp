@@ -33,6 +33,11 @@ int replace_process(const std::filesystem::path& program, const std::vector<std:
   return 6;
 }
 
+int cannot_start(const std::vector<std::string>& words) {
+  std::fprintf(stderr, "cannot start a process for '%s'\n", words.front().c_str());
+  return 6;
+}
+
 }  // namespace
 
 const std::vector<PythonVerb>& python_verbs() {
@@ -59,16 +64,17 @@ bool is_for_python(const std::vector<std::string>& words) {
          python_verbs().end();
 }
 
-int call_python(const std::vector<std::string>& words) {
+int become_python(const std::vector<std::string>& words) {
   std::error_code error;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  const pid_t child = error ? -1 : fork();
-  if (child == 0) _exit(replace_process(program, words));
+  return error ? cannot_start(words) : replace_process(program, words);
+}
+
+int call_python(const std::vector<std::string>& words) {
+  const pid_t child = fork();
+  if (child == 0) _exit(become_python(words));
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) < 0) {
-    std::fprintf(stderr, "cannot start a process for '%s'\n", words.front().c_str());
-    return 6;
-  }
+  if (child < 0 || waitpid(child, &status, 0) < 0) return cannot_start(words);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 

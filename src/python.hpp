@@ -19,8 +19,11 @@ const std::vector<PythonVerb>& python_verbs();
 /// read there.
 bool is_for_python(const std::vector<std::string>& words);
 
-/// Runs `culm VERB arguments` in Python, in a process of its own, and waits for it. Must not be
-/// called while MPI is running.
+/// Runs `culm VERB arguments` in Python in place of this program, so that signals reach it. Returns
+/// only if it cannot be started: 6, with a line on standard error.
+int become_python(const std::vector<std::string>& words);
+
+/// The same in a process of its own, for which it waits. Must not be called while MPI is running.
 /// @return its exit code; 6, with a line on standard error, if it cannot be started
 int call_python(const std::vector<std::string>& words);
 

@@ -100,6 +100,15 @@ class Findings(StudyTest):
         self.assertLess(error, 6e-3)
         self.assertGreater(step, 0.0125)
 
+    def test_variations_that_advance_together(self):
+        output = self.study(
+            FLIGHT, "--vary", "mesh=1:4*2", "step=0.1:0.025/2", "--paired", "mesh", "step", "--watch", "other end",
+            "--repeat", "1", "--set", "Analyses/motion/End Time=1",
+        )
+        self.assertIn("order in mesh: ", output)
+        self.assertEqual([row["mesh"] for row in self.rows()], ["1", "2", "4"])
+        self.assertIn("mesh=4, step=0.025", (self.folder / "study.html").read_text())
+
     def test_reference_from_a_run(self):
         setting = "Analyses/motion/End Time=1"
         self.study(FLIGHT, "--vary", "step=0.05:0.0125/2", "--watch", "other end", "--set", setting, "--repeat", "1")
@@ -202,6 +211,7 @@ class Errors(StudyTest):
     def test_of_names(self):
         self.says("did you mean 'step'", "--vary", "stepp=1,2")
         self.says("did you mean 'other end'", "--vary", "step=1", "--watch", "other edn")
+        self.says("--hold-out nix: no quantity of the history", "--vary", "step=1", "--hold-out", "nix")
         self.says("no component 'q' (x, y, z)", "--vary", "step=1,0.5", "--watch", "other end/q", "--repeat", "1")
 
     def test_of_values(self):

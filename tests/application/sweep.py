@@ -77,6 +77,23 @@ class Sweeps(SweepTest):
         self.assertNotEqual(rows[0]["other end x [m] last"], rows[1]["other end x [m] last"])
         self.assertFalse([name for name in rows[0] if name.startswith("loaded end")])
 
+    def test_variations_that_advance_together(self):
+        self.sweep("--vary", "mesh=1,2", "step=0.1,0.05", "--paired", "mesh", "step", *SHORT)
+        both = self.rows()
+        self.assertEqual([(row["mesh"], row["outcome"]) for row in both], [("1", "done"), ("2", "done")])
+        shutil.rmtree(self.folder / "sweep")
+        self.sweep("--vary", "mesh=1,2", "step=0.1,0.05", *SHORT)
+        each = self.rows()
+        end = "other end x [m] last"
+        self.assertEqual([row[end] for row in both], [each[0][end], each[3][end]])
+
+    def test_a_deck_whose_name_is_not_utf_8(self):
+        deck = self.folder / os.fsdecode(b"d\xe9ck.xml")
+        shutil.copy(FLIGHT, deck)
+        self.sweep("--vary", f"{STIFFNESS}=400,500", *SHORT, deck=deck)
+        self.assertEqual([row["outcome"] for row in self.rows()], ["done", "done"])
+        self.assertIn("must be a number", self.sweep("--vary", f"{STIFFNESS}=none", *SHORT, deck=deck, exit_code=3))
+
     def test_a_variable_comes_before_a_short_name(self):
         deck = self.folder / "named.xml"
         variable = '<Variable name="tolerance" value="500"/>'
@@ -188,6 +205,7 @@ class Nonsense(SweepTest):
             (["--cases", str(self.folder / "none.csv")], 6, "none.csv"),
             (["--vary", "Sections/bar/EII=1,2"], 3, "did you mean"),
             (["--vary", "step=0.1,0.05", "--part", "3/2"], 2, "needs K/N"),
+            (["--vary", "step=0.1,0.05", "--part", "1/2", "--collect"], 2, "--collect and --part exclude each other"),
             (["--vary", "step=0.1,0.05", "--jobs", "0"], 2, "whole number"),
         ):
             with self.subTest(words=words):

@@ -1,10 +1,13 @@
 """The Pareto front, the sentence, and settings between two runs."""
 
+import pathlib
+import tempfile
 import types
 import unittest
 
 from culm import quantities
 from culm.errors import CulmError
+from culm.history import History
 from culm.resolved_deck import ResolvedDeck
 from culm.study import advice
 from culm.study.judgement import Point
@@ -92,12 +95,22 @@ class Watching(unittest.TestCase):
             ("energy", None, None, "energy drift"),
             ("momentum drift", None, None, "momentum drift"),
         ):
-            found = quantities.parse(name, self.DECK)
+            (found,) = quantities.parse([name], self.DECK)
             self.assertEqual((found.entry, found.component, found.drift), (entry, component, drift), name)
 
     def test_of_what_is_not_there(self):
         with self.assertRaisesRegex(CulmError, "did you mean 'tip'"):
-            quantities.parse("tipp", self.DECK)
+            quantities.parse(["tipp"], self.DECK)
+
+    def test_by_which_option(self):
+        with self.assertRaisesRegex(CulmError, "--hold-out tipp: no quantity"):
+            quantities.parse(["tipp"], self.DECK, "--hold-out")
+        (found,) = quantities.parse(["tip/q"], self.DECK, "--hold-out")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "history.csv"
+            path.write_text("time,tip ux [m]\n0,1\n")
+            with self.assertRaisesRegex(CulmError, "--hold-out tip/q: no component 'q'"):
+                found.columns(History(path))
 
     def test_worst_drift_of_all_analyses(self):
         scalars = {"relative energy drift": 1e-12, "stop: relative energy drift": -3e-9, "iterations": 7.0}

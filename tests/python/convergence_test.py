@@ -17,8 +17,8 @@ class FakeHistory:
         self.names = list(columns)
         self.columns = {name: list(values) for name, values in columns.items()}
 
-    def names_of(self, entry):
-        return [name for name in self.names if name.split(" [")[0].rsplit(" ", 1)[0] == entry]
+    def owned(self, quantities):
+        return {one: {name: "" for name in self.names if name.startswith(f"{one} ")} for one in quantities}
 
 
 def history(levels, **columns):

@@ -43,6 +43,18 @@ class PartTest(unittest.TestCase):
                 self.listed("--part", text)
 
 
+class OutputTest(unittest.TestCase):
+    def test_files_that_cannot_be_written_are_told_before_anything_runs(self):
+        parser = argparse.ArgumentParser()
+        declare(parser)
+        with tempfile.TemporaryDirectory() as folder:
+            for option in ("--json", "--plot"):
+                path = f"{folder}/none/file"
+                with self.assertRaises(OSError) as caught:
+                    main(parser.parse_args(["--only", "snap", option, path]), program=None)
+                self.assertEqual(caught.exception.filename, path)
+
+
 class CatalogueTest(unittest.TestCase):
     def test_covers_every_key(self):
         used = {key for case in (*CASES, *ILL_POSED) for key in case.keys.split()}

@@ -1,10 +1,13 @@
 """Models of imported files as decks: meshes, nodes of folds, supports, sums of loads."""
 
+import pathlib
+import tempfile
 import unittest
 
 import numpy
 
 from culm.errors import CulmError
+from culm.importing import abaqus, calculix, desio
 from culm.importing.beam_chains import beam_chains
 from culm.importing.deck import Deck
 from culm.importing.findings import Place
@@ -50,6 +53,21 @@ def entries(root, name):
 def total_area(model):
     quads = Quads(model)
     return area(numpy.array([[quads.positions[n] for n in quad] for quad in quads.quads])).sum(), quads
+
+
+class PathsTest(unittest.TestCase):
+    def test_messages_name_what_was_asked_for(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            empty = folder / "empty.inp"
+            empty.touch()
+            for module in (abaqus, calculix):
+                with self.assertRaisesRegex(CulmError, f"{empty}: the file has no elements"):
+                    module.read(empty, None)
+            with self.assertRaisesRegex(CulmError, f"{folder}/none: is not there"):
+                desio.read(folder / "none", None)
+            with self.assertRaisesRegex(CulmError, f"{folder}: has no simulationinput_structure.txt"):
+                desio.read(folder, None)
 
 
 class QuadsTest(unittest.TestCase):

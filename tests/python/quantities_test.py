@@ -1,7 +1,10 @@
 """Histories are compared where both have what is watched, and files are found where includes name them."""
 
 import pathlib
+import subprocess
+import sys
 import tempfile
+import time
 import unittest
 
 import culm
@@ -19,6 +22,9 @@ def history(rows):
 
 
 class Names(unittest.TestCase):
+    def test_statistics_come_with_the_package(self):
+        subprocess.run([sys.executable, "-c", "import culm; culm.statistics.of_column([0, 1], [2, 3])"], check=True)
+
     def test_the_function_outlives_the_import_of_the_module_of_its_name(self):
         self.assertTrue(callable(culm.history) and isinstance(History, type))
 
@@ -58,6 +64,19 @@ class Histories(unittest.TestCase):
             self.assertFalse(history([(0, ""), (1, bad)]).is_finite)
 
 
+    def test_a_line_without_its_end_is_left_out(self):
+        text = "time,tip [m],analysis,step\n0,1,0,0\n0.5,2,0,1\n"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "history.csv"
+            for last in ("1.0,3", "1.0,3,0,", "1.0,3,0,2"):
+                path.write_text(text + last)
+                self.assertEqual(History(path).levels, [0.0, 0.5])
+                self.assertEqual(culm.history(folder)["tip [m]"].tolist(), [1.0, 2.0])
+            path.write_text(text + "1.0,3\n")
+            with self.assertRaisesRegex(CulmError, "line 4: not 4 numbers"):
+                History(path)
+
+
 class Owners(unittest.TestCase):
     def owners(self, columns, *quantities):
         found = owners_of(columns, quantities)
@@ -83,6 +102,23 @@ class Owners(unittest.TestCase):
         self.assertEqual([name_of(columns[0]), unit_of(columns[0])], ["tip [left] ux", "m"])
         self.assertEqual([name_of("step"), unit_of("step")], ["step", ""])
 
+    def test_of_many(self):
+        """Of ten thousand entries, each asked for its columns: a look at all of them for each would take minutes."""
+        names = [f"node {i}" for i in range(10000)]
+        deck = ResolvedDeck(
+            '<ParameterList name="culm"><ParameterList name="Output"><ParameterList name="History">'
+            + "".join(f'<ParameterList name="{name}"><Parameter name="Type" value="Position"/></ParameterList>' for name in names)
+            + "</ParameterList></ParameterList></ParameterList>")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "history.csv"
+            path.write_text(",".join(["time", *(f"{name} {x} [m]" for name in names for x in "xyz")]) + "\n")
+            read = History(path)
+        start = time.process_time()
+        columns = [one.columns(read) for one in quantities.parse(names, deck)]
+        self.assertLess(time.process_time() - start, 10.0)
+        self.assertEqual(columns[1], {"node 1": ["node 1 x [m]", "node 1 y [m]", "node 1 z [m]"]})
+        self.assertEqual(sum(len(found[name]) for name, found in zip(names, columns)), 30000)
+
     def test_of_another_deck(self):
         self.assertEqual(self.owners(["tip ux [m]", "foot Fx [N]", "x [1]"], "foot", "tip"), [("tip", "ux"), ("foot", "Fx"), ("x", "")])
 
@@ -95,8 +131,8 @@ class Owners(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "history.csv"
             path.write_text("time,strip alpha [rad],strip alpha E [rad],strip V [m/s],strip V ux [m],strip V uy [m]\n0,1,2,3,4,5\n")
-            columns = {name: quantities.parse(name, deck).columns(History(path))
-                       for name in ("strip", "strip V", "strip/alpha E", "strip/V", "strip V/ux")}
+            names = ("strip", "strip V", "strip/alpha E", "strip/V", "strip V/ux")
+            columns = {one.name: one.columns(History(path)) for one in quantities.parse(names, deck)}
         self.assertEqual(columns["strip"], {"strip [rad]": ["strip alpha [rad]", "strip alpha E [rad]"], "strip [m/s]": ["strip V [m/s]"]})
         self.assertEqual(columns["strip V"], {"strip V": ["strip V ux [m]", "strip V uy [m]"]})
         self.assertEqual(columns["strip/alpha E"], {"strip/alpha E": ["strip alpha E [rad]"]})

@@ -54,6 +54,11 @@ class Statistics(unittest.TestCase):
         self.assertAlmostEqual(found.mean, 7.0 / 4.0)
         self.assertEqual(statistics.of_column([0.0, 1.0], [5.0, 5.0]).equivalents[4], 0.0)
 
+    def test_of_too_little(self):
+        for times, values in (([], []), ([1.0], [2.0]), ([0.0, 1.0], [2.0])):
+            with self.assertRaisesRegex(ValueError, "need at least 2 times"):
+                statistics.of_column(times, values)
+
 
 class PageOfARun(unittest.TestCase):
     def table(self, window):

@@ -106,6 +106,12 @@ class Pairs(unittest.TestCase):
         self.assertEqual(axes[0].settings(1), ["Analyses/run-up/Step=2", "Analyses/stop/Step=2", "Refinement=2"])
         self.assertEqual(axes[0].settings(2)[-1], "Refinement=4")
 
+    def test_set_what_each_of_them_sets(self):
+        (axis,) = variation.pair([parse("step=4,2"), parse("mesh=1,2")], ["step", "mesh"])
+        self.assertEqual(axis.paths(), {"Analyses/run-up/Step", "Analyses/stop/Step", "Refinement"})
+        with self.assertRaisesRegex(CulmError, "varies Refinement"):
+            variation.refuse_set(["Refinement=3"], [(axis.name, axis.paths())])
+
     def test_differing_numbers_are_an_error(self):
         with self.assertRaisesRegex(CulmError, "step 2, mesh 3"):
             variation.pair([parse("step=4,2"), parse("mesh=1,2,4")], ["step", "mesh"])

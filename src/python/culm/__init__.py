@@ -19,11 +19,14 @@ _LIBRARY = ("Simulation", "Stepper", "Snapshot", "Port", "Error", "UsageError", 
             "NonFiniteError", "FileError")
 __all__ = [*_LIBRARY, "history", "read"]
 
-from . import history as _history  # noqa: E402,F401  first: a later import of it would take the name of the function
+from . import history as _history  # noqa: E402  first: a later import of it would take the name of the function
 
 
 def __getattr__(name):
-    """What the extension module offers, loaded with MPI and Trilinos when it is first asked for."""
+    """What the extension module offers, loaded with MPI and Trilinos when it is first asked for; and `statistics`, with numpy."""
+    if name == "statistics":
+        import importlib
+        return importlib.import_module(".statistics", __name__)
     if name not in _LIBRARY:
         raise AttributeError(f"module 'culm' has no attribute '{name}'")
     import _culm
@@ -37,12 +40,9 @@ def __dir__():
 def history(folder):
     """The history of a run as a pandas frame, by time or level, number by number as the file has it; the last two columns
     are the number of the analysis in the deck, from 0, and its step, 0 at its start."""
-    import collections
     import pathlib
 
-    import pandas
-    types = collections.defaultdict(lambda: "float64", analysis="int64", step="int64")
-    return pandas.read_csv(pathlib.Path(folder) / "history.csv", index_col=0, dtype=types, float_precision="round_trip")
+    return _history.frame_of(pathlib.Path(folder) / "history.csv")
 
 
 def read(folder):

@@ -40,6 +40,8 @@ def main():
     module = module_of(arguments.verb)
     from .program import Program
 
+    sys.stdout = sys.stdout or open(os.devnull, "w")  # none where it is closed
+    sys.stdout.reconfigure(errors="surrogateescape")  # names of files may be any bytes
     try:
         code = module.main(arguments, Program(os.environ["CULM_PROGRAM"]))
     except CulmError as error:

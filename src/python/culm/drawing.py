@@ -9,7 +9,8 @@ import matplotlib.ticker  # noqa: E402
 import numpy  # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection  # noqa: E402
 
-STYLE = {"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2}
+# no text is math: names of a deck may have a $
+STYLE = {"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "lines.linewidth": 1.2, "text.parse_math": False}
 pyplot.rcParams.update(STYLE)
 
 REFERENCE = "0.65"
@@ -156,6 +157,15 @@ def histories(groups, label, is_path=False):
     for ax in axes.flat[len(groups) :]:
         ax.set_visible(False)
     return figure
+
+
+def scale_log(axes, *directions):
+    """Makes directions logarithmic, with labels that are no math, as those of matplotlib are."""
+    for direction in directions:
+        axes.set(**{f"{direction}scale": "log"})
+        axis = getattr(axes, f"{direction}axis")
+        axis.set_major_formatter(matplotlib.ticker.LogFormatter())
+        axis.set_minor_formatter(matplotlib.ticker.LogFormatter())
 
 
 def close(figure):

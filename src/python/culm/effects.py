@@ -45,7 +45,7 @@ def declare(parser):
 
 def main(arguments, program):
     deck = ResolvedDeck.of(program, arguments.deck, arguments.settings)
-    watched = [quantities.parse(name, deck) for name in arguments.watch or deck.names_in("Output/History")]
+    watched = quantities.parse(arguments.watch or deck.names_in("Output/History"), deck)
     folder = arguments.output or pathlib.Path("effects") / arguments.deck.stem
     wanted = _wanted(removals.find(deck), arguments.only)
     whole = program.run(arguments.deck, folder / "whole", arguments.settings)
@@ -90,16 +90,17 @@ def _compare(removal, whole, run, watched, norm):
         reason = next((line for line in run.errors.splitlines() if not line.startswith("warning")), run.outcome)
         return Outcome(removal, run.cpu, 0, 0, {}, reason)
     changes = {}
+    before, after = whole.history, run.history
     for one in watched:
         try:
-            measure = quantities.Measure([one], norm, [whole.history, run.history])
+            measure = quantities.Measure([one], norm, [before, after])
         except CulmError:
             continue  # the quantity goes with the effect
         if not measure.columns:
             continue
-        state = measure.state(whole.history)
+        state = measure.state(before)
         measure.refer_to(state)
-        changes.update(measure.sizes(measure.state(run.history) - state))
+        changes.update(measure.sizes(measure.state(after) - state))
     changes.update(_changes_of_modes(whole.results.tables(), run.results.tables()))
     return Outcome(removal, run.cpu, *_size(run.results.effects()), changes, broken=run.broken)
 
@@ -238,7 +239,8 @@ def _draw(outcomes, whole, accuracy):
     places = range(len(shown))
     axes[0][0].barh(places, changes, color=colours)
     axes[0][0].set_yticks(places, names, fontsize=7)
-    axes[0][0].set(xscale="log", xlabel="largest change without it [%]")
+    drawing.scale_log(axes[0][0], "x")
+    axes[0][0].set(xlabel="largest change without it [%]")
     axes[0][0].axvline(100.0 * accuracy, color="0.3", lw=0.8, ls="--")
     axes[0][1].barh(places, [100.0 * (one.cpu / whole.cpu - 1.0) for one in shown], color="tab:blue")
     axes[0][1].set_yticks(places, [])

@@ -2,6 +2,7 @@
 
 import datetime
 import hashlib
+import io
 import pathlib
 import sys
 import tempfile
@@ -10,7 +11,7 @@ import zipfile
 
 from .errors import CulmError
 from .resolved_deck import ResolvedDeck
-from .whole_file import refuse_to_replace
+from .whole_file import refuse_to_replace, write_whole
 
 PLATFORM = "x86_64-linux"
 PER_PORT = 16  # value references, as src/fmi/fmu.cpp counts them
@@ -47,11 +48,13 @@ def main(arguments, program):
         with tempfile.TemporaryDirectory(prefix="culm") as folder:
             resources = _write_resources(pathlib.Path(folder), deck, arguments.deck)
             description = _describe(resources / "deck.xml", identifier, arguments.deck.stem, program)
-            with zipfile.ZipFile(output, "w", zipfile.ZIP_DEFLATED) as fmu:
+            archive = io.BytesIO()
+            with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as fmu:
                 fmu.writestr("modelDescription.xml", description)
                 fmu.write(library, f"binaries/{PLATFORM}/{identifier}.so")
                 for path in sorted(resources.iterdir()):
                     fmu.write(path, f"resources/{path.name}")
+            write_whole(output, archive.getvalue())
     except OSError as error:
         raise CulmError(f"cannot write '{output}': {error.strerror}", 6) from error
     print(output)
@@ -79,7 +82,7 @@ def _describe(deck, identifier, name, program):
         raise CulmError("the deck has no port: another program could neither see nor load it", 3)
     stepper = simulation.begin()
     root = ElementTree.Element(
-        "fmiModelDescription", fmiVersion="3.0", modelName=name, variableNamingConvention="flat",
+        "fmiModelDescription", fmiVersion="3.0", modelName=name.encode("utf-8", "replace").decode(), variableNamingConvention="flat",
         instantiationToken=hashlib.sha256(deck.read_bytes()).hexdigest(), generationTool=f"culm {program.call('--version').stdout.splitlines()[0]}",
         generationDateAndTime=datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ"),
     )

@@ -1,8 +1,9 @@
 """The history of a run, as it stands in history.csv."""
 
+import collections
 import csv
+import io
 import math
-import pathlib
 
 from .errors import CulmError
 
@@ -25,16 +26,18 @@ def owners_of(columns, quantities):
     @param quantities  names of all entries of the history in the deck
     """
     names = [name_of(column) for column in columns]
-    fitting = [_fitting(name, quantities) for name in names]
+    numbers = {one: k for k, one in enumerate(quantities)}
+    fitting = [_fitting(name, numbers) for name in names]
     chosen = _in_order(names, fitting, quantities)
     if chosen is None:  # a history of another deck
         chosen = [max(which, key=lambda k: len(quantities[k]), default=None) for which in fitting]
     return {column: _named(name, k, quantities) for column, name, k in zip(columns, names, chosen)}
 
 
-def _fitting(name, quantities):
-    """Numbers of the quantities that a column may show by its name."""
-    return [k for k, one in enumerate(quantities) if name == one or name.startswith(f"{one} ")]
+def _fitting(name, numbers):
+    """Numbers of the quantities that a column may show by its name: those that it begins with, up to a space or its end."""
+    beginnings = (name[:i] for i in range(len(name) + 1) if name[i : i + 1] in (" ", ""))
+    return [numbers[one] for one in beginnings if one in numbers]
 
 
 def _in_order(names, fitting, quantities):
@@ -61,6 +64,22 @@ def _named(name, number, quantities):
     return (name, "") if number is None else (quantities[number], name[len(quantities[number]) :].strip())
 
 
+def whole_lines(path):
+    """Lines of a history.csv; not the last one where its end is missing, which a run is about to write or a full disk had no room for."""
+    with open(path, newline="", encoding="utf-8") as file:
+        lines = file.readlines()
+    return lines if not lines or lines[-1].endswith(("\n", "\r")) else lines[:-1]
+
+
+def frame_of(path):
+    """A history.csv as a pandas frame, by time or level."""
+    import pandas
+
+    types = collections.defaultdict(lambda: "float64", analysis="int64", step="int64")
+    text = io.StringIO("".join(whole_lines(path)))
+    return pandas.read_csv(text, index_col=0, dtype=types, float_precision="round_trip")
+
+
 def _is_number(cell):
     try:
         float(cell)
@@ -76,11 +95,7 @@ class History:
 
     def __init__(self, path):
         try:
-            with open(path, newline="") as file:
-                lines = file.readlines()
-            if lines and not lines[-1].endswith("\n") and pathlib.Path(path).with_name("run.lock").exists():
-                lines.pop()  # the run that goes on is about to write the rest
-            rows = [row for row in csv.reader(lines) if row]
+            rows = [row for row in csv.reader(whole_lines(path)) if row]
         except (UnicodeDecodeError, csv.Error) as error:
             raise CulmError(f"'{path}' is no table of a history: {error}", 6) from error
         if not rows:
@@ -97,6 +112,16 @@ class History:
         self.columns = {
             name: [float(row[i + 1] or math.nan) for row in rows[1:]] for i, name in enumerate(self.names)
         }
+        self._owned = (None, {})
+
+    def owned(self, quantities):
+        """Columns by the quantity that they show, with their components: {quantity: {column: component}}, as owners_of tells."""
+        if self._owned[0] is not quantities:  # who asks for each of them in turn hands over the same list
+            found = {}
+            for column, (quantity, component) in owners_of(self.names, quantities).items():
+                found.setdefault(quantity, {})[column] = component
+            self._owned = (quantities, found)
+        return self._owned[1]
 
     def row(self, level):
         """The number of the row at a level that was met exactly."""

@@ -24,6 +24,7 @@ EXITS = {
     8: "done, a promise is broken",
 }
 DONE = (0, 8)  # the results are whole
+TEXT = {"encoding": "utf-8", "errors": "replace"}  # of what is said, in which names of files may be any bytes
 
 
 @dataclasses.dataclass
@@ -91,7 +92,7 @@ class Program:
         """Another verb, with what it prints; the result of subprocess.run."""
         command = [self.path, *map(str, words)]
         return subprocess.run(
-            command, capture_output=True, text=True, stdin=subprocess.DEVNULL, env=_environment()
+            command, capture_output=True, **TEXT, stdin=subprocess.DEVNULL, env=_environment()
         )
 
     def resume(self, folder, walltime, time_limit=None):
@@ -106,7 +107,7 @@ class Program:
         command = [self.path, "check", _word(deck), "--quiet", "--resolved", _word(path)]
         for setting in settings:
             command += ["--set", setting]
-        done = subprocess.run(command, capture_output=True, text=True, env=_environment())
+        done = subprocess.run(command, capture_output=True, **TEXT, env=_environment())
         if done.returncode != 0:
             raise CulmError(done.stderr.strip() or EXITS.get(done.returncode, "failed"), done.returncode)
 
@@ -119,8 +120,8 @@ class Program:
         exit_code, usage = _wait(process, time_limit)
         return Run(
             exit_code,
-            files["output"].read_text(),
-            files["errors"].read_text(),
+            files["output"].read_text(**TEXT),
+            files["errors"].read_text(**TEXT),
             usage.ru_utime + usage.ru_stime,
             time.monotonic() - start,
             pathlib.Path(folder),

@@ -12,7 +12,7 @@ import difflib
 import numpy
 
 from .errors import CulmError
-from .history import owners_of, unit_of
+from .history import unit_of
 
 NORMS = ("rms", "max", "end")
 DRIFTS = {
@@ -32,39 +32,44 @@ class Watched:
     component: str | None = None
     drift: str | None = None
     entries: tuple = ()  # of the history, as the deck has them
+    option: str = "--watch"  # by which it was asked for
 
     def columns(self, history):
         """Columns by unit: {title: [names]}."""
-        owners = owners_of(history.names, self.entries or (self.entry,))
-        names = [name for name in history.names if owners[name][0] == self.entry]
+        components = history.owned(self.entries or (self.entry,)).get(self.entry, {})
         if self.component:
-            found = [name for name in names if owners[name][1] == self.component]
+            found = [name for name, component in components.items() if component == self.component]
             if not found:
-                hint = _hint(self.component, [owners[name][1] for name in names])
-                raise CulmError(f"--watch {self.name}: no component '{self.component}'{hint}")
+                hint = _hint(self.component, components.values())
+                raise CulmError(f"{self.option} {self.name}: no component '{self.component}'{hint}")
             return {self.name: found}
         units = {}
-        for name in names:
+        for name in components:
             units.setdefault(unit_of(name), []).append(name)
         if len(units) == 1:
-            return {self.name: names}
+            return {self.name: list(components)}
         return {f"{self.name} [{unit}]": found for unit, found in units.items()}
 
 
-def parse(name, deck):
-    """A quantity by its name: 'tip', 'tip/uz', 'tip/displacement' (an entry and its type), or a drift."""
-    entries = deck.names_in("Output/History")
-    entry, _, component = name.rpartition("/") if name not in entries else (name, "", "")
+def parse(names, deck, option="--watch"):
+    """Quantities by their names: 'tip', 'tip/uz', 'tip/displacement' (an entry and its type), or a drift."""
+    entries = tuple(deck.names_in("Output/History"))
+    known = set(entries)
+    return [_parse(name, deck, entries, known, option) for name in names]
+
+
+def _parse(name, deck, entries, known, option):
+    entry, _, component = name.rpartition("/") if name not in known else (name, "", "")
     if not entry:
         entry, component = name, ""
-    if entry in entries:
+    if entry in known:
         kind = deck.parameters[f"Output/History/{entry}/Type"]
         component = None if component.lower() in ("", kind.lower()) else component
-        return Watched(name, entry, component, entries=tuple(entries))
+        return Watched(name, entry, component, entries=entries, option=option)
     drift = SHORT_DRIFTS.get(name, name)
     if drift in DRIFTS:
-        return Watched(name, drift=drift)
-    raise CulmError(f"--watch {name}: no quantity of the history{_hint(entry, [*entries, *DRIFTS])}")
+        return Watched(name, drift=drift, option=option)
+    raise CulmError(f"{option} {name}: no quantity of the history{_hint(entry, [*entries, *DRIFTS])}")
 
 
 def drift(scalars, name):

@@ -7,7 +7,7 @@ import numpy
 import pandas
 
 from .errors import CulmError
-from .history import owners_of
+from .history import frame_of, owners_of
 from .results import Results, _text, _without_escapes
 from .run_file import RunFile
 from .state_tables import read_field
@@ -143,12 +143,14 @@ class Run:
             times = part.index.get_level_values("time")
             for number, column in enumerate(part.columns):
                 axes.plot(times, part[column], style, color=f"C{number}", label=f"{column}, {name}")
-        axes.set(xlabel="time [s] or level", title=quantity)
-        axes.legend(fontsize="small")
+        axes.set(xlabel="time [s] or level")
+        axes.set_title(quantity, parse_math=False)  # names of a deck, in which $ is a letter as any other
+        with pyplot.rc_context({"text.parse_math": False}):
+            axes.legend(fontsize="small")
         return axes
 
     def _read_history(self):
-        frame = pandas.read_csv(self.folder / "history.csv", float_precision="round_trip")
+        frame = frame_of(self.folder / "history.csv").reset_index()
         frame["analysis"] = [self.analyses[number] for number in frame["analysis"]]
         return frame.set_index(["analysis", "step", "time"])
 

@@ -13,10 +13,13 @@ from .page import Page
 from .quantities import begins_unsolved
 from .resolved_deck import ResolvedDeck
 from .results import Results, file_part
+from .run_file import RunFile
 from .whole_file import PAGE, refuse_to_replace
 
 
 MOST_ROWS = 40  # of a table
+MOST_PLOTS = 100  # of the history of an analysis
+PLOTS_OF_A_FIGURE = 20  # pictures of many are higher than may be drawn
 
 
 def declare(parser):
@@ -42,7 +45,7 @@ def main(arguments, program):
     try:
         write_page(Results(path), arguments.folder, output, arguments.window)
     except (KeyError, RuntimeError) as error:  # h5py raises what it likes where a file is damaged
-        raise CulmError(f"cannot read '{path}', which is damaged or incomplete: {error}", 6) from error
+        raise RunFile(path).damaged(error) from error
     except OSError as error:
         raise CulmError(f"{error.filename}: {error.strerror}" if error.filename else str(error), 6) from error
     if not arguments.quiet:
@@ -118,18 +121,22 @@ def _add_histories(page, results, history, parts, drawing):
     def title_and_unit(column):
         return owners[column][0], unit_of(column)
 
+    plots = [(key, list(columns)) for key, columns in itertools.groupby(history.names, key=title_and_unit)]
     for name, kind, rows in parts:
         if len(parts) > 1:
             page.paragraph(f"{name}, {kind}:")
         groups = []
-        for (title, unit), columns in itertools.groupby(history.names, key=title_and_unit):
+        for (title, unit), columns in plots[:MOST_PLOTS]:
             curves = {
                 owners[column][1] or title: history.columns[column][rows] for column in columns
             }
             groups.append((title, unit, history.levels[rows], curves))
         label = "time [s]" if kind == "Dynamic" else "level" if kind else "time [s] or level"
-        figure = drawing.histories(groups, label, is_path=kind == "Path")
-        _add_figure(page, drawing, figure, f"histories of the quantities of the deck, {name}")
+        for first in range(0, len(groups), PLOTS_OF_A_FIGURE):
+            figure = drawing.histories(groups[first : first + PLOTS_OF_A_FIGURE], label, is_path=kind == "Path")
+            _add_figure(page, drawing, figure, f"histories of the quantities of the deck, {name}")
+    if len(plots) > MOST_PLOTS:
+        page.paragraph(f"{len(plots) - MOST_PLOTS} more plots are not drawn; their numbers are in history.csv.")
 
 
 def _add_statistics(page, history, parts, window, deck):
@@ -214,7 +221,8 @@ def _add_steps(page, results, drawing):
         chosen = [step for step in steps if step.held == held]
         if chosen:
             residuals = [max(step.residual, 1e-17) for step in chosen]
-            axes[0][1].semilogy([s.time for s in chosen], residuals, ".", ms=3, label=label)
+            axes[0][1].plot([s.time for s in chosen], residuals, ".", ms=3, label=label)
+    drawing.scale_log(axes[0][1], "y")
     if any(step.held for step in steps):
         axes[0][1].legend()
     axes[0][1].set(title="Relative residual of accepted steps", xlabel="time [s] or level")

@@ -2,6 +2,7 @@
 
 import fcntl
 import io
+import pathlib
 import time
 
 import h5py
@@ -21,10 +22,20 @@ class RunFile:
 
     def open(self):
         """The file of h5py, to read. While a run writes, the file is that of one moment, the same each time. Raises
-        CulmError where there was no such moment, and what h5py raises."""
+        CulmError where there was no such moment, and where it is none of HDF5."""
         if self._copy is None and _is_held(self.path.with_name("run.lock")):
             self._copy = self._steady()
-        return h5py.File(self.path if self._copy is None else io.BytesIO(self._copy), "r")
+        try:
+            return h5py.File(self.path if self._copy is None else io.BytesIO(self._copy), "r")
+        except OSError as error:
+            raise self.damaged(error) from error
+
+    def damaged(self, error):
+        """What to tell of what h5py raised."""
+        hint = ""
+        if pathlib.Path(f"{self.path}.journal").exists():
+            hint = "; run.h5.journal holds the rest of it, 'culm resume' puts that in its place"
+        return CulmError(f"cannot read '{self.path}', which is damaged or incomplete: {' '.join(str(error).split())}{hint}", 6)
 
     def _steady(self):
         """Commits change places all over the file, each in microseconds: what is the same twice lies between two."""

@@ -59,8 +59,10 @@ def equivalent_load(values, duration, exponent):
 
 
 def of_column(times, values):
-    """Statistics of a column that is linear between rising times."""
+    """Statistics of a column that is linear between rising times, of which there must be two."""
     times, values = np.asarray(times, float), np.asarray(values, float)
+    if len(times) < 2 or len(times) != len(values):
+        raise ValueError(f"{len(times)} times and {len(values)} values; statistics need at least 2 times, and a value at each")
     duration = times[-1] - times[0]
     weights = np.zeros(len(times))
     weights[1:] += 0.5 * np.diff(times)

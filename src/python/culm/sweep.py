@@ -44,11 +44,13 @@ def declare(parser):
 
 
 def main(arguments, program):
+    if arguments.collect and arguments.part:
+        raise CulmError("--collect and --part exclude each other: what is collected are the runs of all parts", 2)
     deck = ResolvedDeck.of(program, arguments.deck, arguments.set)
     names, cases = _cases(arguments, deck)
     if not cases:
         raise CulmError("nothing varies: give --vary or --cases", 2)
-    watched = [quantities.parse(name, deck) for name in arguments.watch or deck.names_in("Output/History")]
+    watched = quantities.parse(arguments.watch or deck.names_in("Output/History"), deck)
     ResolvedDeck.of(program, arguments.deck, [*arguments.set, *cases[0].settings])  # a wrong path is said at once
     folder = arguments.output or pathlib.Path("sweeps") / arguments.deck.stem
     runs = StudyRuns(

@@ -7,6 +7,7 @@ import tempfile
 from ..at_once import at_once, declare_jobs, declare_part, share
 from ..errors import CulmError
 from ..option_types import positive
+from ..whole_file import refuse_unwritable
 from . import margins
 from .case import KEYS
 
@@ -54,6 +55,8 @@ def main(arguments, program):
         known = margins.read(arguments.compare) if arguments.compare else ({}, {})
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise CulmError(f"{arguments.compare}: {error}", 6) from error
+    for path in filter(None, (arguments.json, arguments.plot)):
+        refuse_unwritable(path)
     with tempfile.TemporaryDirectory(prefix="culm-hard") as scratch:
         found, refused, shrunk = _run(
             arguments, program, arguments.output or scratch, cases, refusals, known, terminal

@@ -28,11 +28,12 @@ def draw(entries, path):
     for i, one in enumerate(shown):
         end = ">" if one.is_open else ""
         ax.text(one.margin * 1.15, i, f"{end} {one.margin:.2g}", va="center", fontsize=6.5)
-    ax.set(xscale="log", xlabel="last good value over advised value", ylim=(-0.7, len(shown) - 0.3))
+    drawing.scale_log(ax, "x")
+    ax.set(xlabel="last good value over advised value", ylim=(-0.7, len(shown) - 0.3))
     ax.set_xlim(1.0, 100 * max([one.margin for one in shown], default=1.0))
     labels = [f"{one.name}  [{one.keys}]" for one in shown]
     ax.set_yticks(range(len(shown)), labels, fontsize=7)
     ax.grid(axis="y", visible=False)
     ax.legend(title="beyond the margin", loc="lower right", fontsize=7, title_fontsize=7)
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=110, format="png")  # whatever its ending
     drawing.close(figure)

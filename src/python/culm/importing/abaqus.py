@@ -59,6 +59,7 @@ class Reader:
     @param prefix  of names and numbers in the instance that is read; empty outside"""
 
     def __init__(self, path, program):
+        self.path = path
         self.program = program
         self.model = Model(title=path.stem)
         self.findings = self.model.findings
@@ -95,7 +96,7 @@ class Reader:
             else:
                 self._block(block)
         if not self.elements:
-            refuse(blocks[0].place if blocks else self.model.title, "the file has no elements")
+            refuse(blocks[0].place if blocks else self.path, "the file has no elements")
         resolve_sections(self)
         hold_in_plane(self)
         finish_steps(self)

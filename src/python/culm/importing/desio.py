@@ -54,6 +54,8 @@ def declare(parser):
 
 def read(path, arguments):
     """@return the ReadyDeck of a model"""
+    if not path.exists():
+        raise CulmError(f"{path}: is not there", FILE_ERROR)
     folder = path if path.is_dir() else path.parent
     return Reader(folder, path, getattr(arguments, "first_node", None)).read()
 

@@ -90,7 +90,7 @@ def _check_values(program, arguments, axes):
 
 
 def _plan(arguments, deck, axes):
-    watched = [quantities.parse(name, deck) for name in arguments.watch or deck.names_in("Output/History")]
+    watched = quantities.parse(arguments.watch or deck.names_in("Output/History"), deck)
     if not watched:
         raise CulmError("the deck has no Output / History: there is nothing to watch", 3)
     reference = arguments.reference
@@ -102,7 +102,7 @@ def _plan(arguments, deck, axes):
         reference = History(path)
     return Plan(
         watched=watched,
-        held_out=[quantities.parse(name, deck) for name in arguments.hold_out],
+        held_out=quantities.parse(arguments.hold_out, deck, "--hold-out"),
         norm=arguments.norm or _usual_norm(deck),
         reference=reference,
         finer=arguments.finer,

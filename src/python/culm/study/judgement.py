@@ -137,7 +137,7 @@ class Judgement:
                 if one.drift is None:
                     one.columns(history)
                 elif drift(scalars, one.drift) is None:
-                    text = f"--watch {one.name}: the certificate of this deck has no such number"
+                    text = f"{one.option} {one.name}: the certificate of this deck has no such number"
                     raise CulmError(text)
             self._is_checked = True
 

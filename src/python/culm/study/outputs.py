@@ -227,7 +227,8 @@ def _draw_costs(judgement, ax, styles):
         style = {**style, "ls": ""}
         ax.errorbar(costs, shown, xerr=spread, elinewidth=0.8, label=label, **style)
     _draw_band(ax, judgement.uncertainty)
-    ax.set(xscale="log", yscale="log", xlabel="CPU time [s]", ylabel="relative error")
+    drawing.scale_log(ax, "x", "y")
+    ax.set(xlabel="CPU time [s]", ylabel="relative error")
     ax.set_title("What accuracy costs")
     low, high = ax.get_xlim()
     numbers = [m * 10.0**k for k in range(-3, 6) for m in (1.0, 2.0, 5.0)]
@@ -268,10 +269,8 @@ def _draw_lines(judgement, ax, a, styles):
         ax.annotate(
             f"order {order}", end, (-2, -10), textcoords="offset points", ha="right", color="0.4", fontsize=7
         )
-    ax.set(
-        xscale="log", yscale="log", xlabel=axis.leaf, ylabel="relative error to its own limit",
-        title=f"Convergence in {axis.leaf}",
-    )
+    drawing.scale_log(ax, "x", "y")
+    ax.set(xlabel=axis.leaf, ylabel="relative error to its own limit", title=f"Convergence in {axis.leaf}")
     numbers = sorted({number for line in lines for number in line.numbers})
     ax.set_xticks(numbers, [f"{number:g}" for number in numbers])
     ax.set_xticks([], minor=True)

@@ -188,6 +188,10 @@ class PairedAxis:
     def settings(self, i):
         return [setting for axis in self.axes for setting in axis.settings(i)]
 
+    def paths(self):
+        """What is set by any of their values."""
+        return set().union(*(axis.paths() for axis in self.axes))
+
     def between(self, coarse, fine, share):
         del coarse, fine, share  # several values would have to be rounded alike
         return None

@@ -1,7 +1,6 @@
 """What a run recorded, read for the page: structures, states, shapes."""
 
 import dataclasses
-import pathlib
 import urllib.parse
 
 import numpy
@@ -94,11 +93,12 @@ class Recording:
             raise CulmError(f"'{path}' is a deck, no run; 'culm check {path} --view model.html' shows its model", 6)
         self.path = path
         self.folder = path.parent
+        self._run = RunFile(path)
 
     def __enter__(self):
         self._file = None
         try:
-            self._file = RunFile(self.path).open()
+            self._file = self._run.open()
             if _text(self._file.attrs.get("format", "")) != "culm run":
                 raise CulmError(f"'{self.path}' is not the result file of a run", 6)
             self._steps = sorted(self._file["steps"].values(), key=lambda step: int(step.attrs["index"]))
@@ -108,21 +108,14 @@ class Recording:
                 self._file.close()
             raise
         except Exception as error:
-            raise self._broken(error) from error
+            raise self._run.damaged(error) from error
         return self
 
     def __exit__(self, kind, error, trace):
         self._file.close()
         # h5py raises what it likes where a file is damaged
         if isinstance(error, (OSError, KeyError, RuntimeError)):
-            raise self._broken(error) from error
-
-    def _broken(self, error):
-        reason = " ".join(str(error).split())
-        hint = ""
-        if pathlib.Path(f"{self.path}.journal").exists():
-            hint = "; run.h5.journal holds the rest of it, 'culm resume' puts that in its place"
-        return CulmError(f"cannot read '{self.path}', which is damaged or incomplete: {reason}{hint}", 6)
+            raise self._run.damaged(error) from error
 
     @property
     def title(self):
