@@ -5,6 +5,7 @@ usage: sweep.py --culm PROGRAM
 """
 
 import argparse
+import contextlib
 import csv
 import os
 import pathlib
@@ -176,6 +177,22 @@ class Sweeps(SweepTest):
             self.assertEqual(process.returncode, 0, output + errors)
             self.assertIn("5 runs: 5 done", output)
         self.assertEqual(sum(output.count(f" s  {STIFFNESS}=") for output, _ in told), 5, told)
+
+    def test_a_signal_to_it_alone_ends_it(self):
+        cases = self.cases(STIFFNESS, *(f"{300 + i}" for i in range(40)))
+        process = self.start("--cases", cases, *SHORT)
+        end = time.monotonic() + TIME_LIMIT
+        while len(self.ended()) < 2 and time.monotonic() < end:
+            time.sleep(0.01)
+        process.terminate()
+        process.communicate()
+        self.assertEqual(process.returncode, -signal.SIGTERM)
+        with contextlib.suppress(ProcessLookupError):
+            while time.monotonic() < end:  # the run that it had begun comes to its end
+                os.killpg(process.pid, 0)
+                time.sleep(0.01)
+        self.assertLess(len(self.ended()), 40)
+        self.assertFalse((self.folder / "sweep/sweep.csv").exists())
 
     def test_goes_on_after_a_kill(self):
         lines = [f"{300 + i}" for i in range(8)]

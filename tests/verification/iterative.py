@@ -12,6 +12,7 @@ from verify import main  # puts culm_runs on the path
 DECKS = {
     "statics": ("shell/pinched_cylinder.xml", ["Analyses/loading/Steps=2"], 1e-7),
     "bodies and soft transitions": ("shell/rings_on_bodies.xml", [], 1e-7),
+    "constraints as equations": ("turbine/nrel5mw/blade_static.xml", ["Solver/Form=Multipliers"], 1e-7),
     "a motion": ("shell/tumbling_cylinder.xml", ["Analyses/fly/End Time=0.2"], 1e-7),
 }
 PATH = "shell/hinged_roof_path.xml"

@@ -77,7 +77,7 @@ class IterativeSolver final : public LinearSolver {
     if (direct_) return direct_->factor();
     const double sum = sum_of_diagonal();
     const bool is_other = std::abs(sum - built_sum_) > other_matrix * std::abs(built_sum_);
-    if (!multigrid_ || is_stale_ || is_other) return renew();
+    if (!multigrid_ || is_stale_ || is_other) return renew() || factor_directly();
     multigrid_->refresh();
     is_new_ = false;
     built_for_ = {};
@@ -90,15 +90,14 @@ class IterativeSolver final : public LinearSolver {
 
   LinearResidual solve_roughly(const Vector& b, Vector& x, double reduction) override {
     x.fill(0.0);
-    if (!direct_ && is_stale_ && !renew()) return useless;
+    if (!direct_ && is_stale_ && !renew() && !factor_directly()) return useless;
     if (direct_) return direct_->solve(b, x);
     const double size = b.norm();
     if (!std::isfinite(size)) return {size};
     if (size == 0.0) return {};
     std::optional<LinearResidual> reached = iterate(b, x, reduction);
     if (!reached && !is_new_) {
-      if (!build()) return useless;
-      reached = iterate(b, x, reduction);
+      if (build()) reached = iterate(b, x, reduction);
     }
     return reached ? *reached : solve_directly(b, x);
   }
@@ -243,23 +242,38 @@ class IterativeSolver final : public LinearSolver {
     if (!is_new_ && spent > some_iterations && per_digit > slower * usual_) is_stale_ = true;
   }
 
+  // Of MUMPS [B].
+  double need_of(const Ordering& ordering) const {
+    return 8.0 * ordering.fill.entries * (is_symmetric_ ? 0.5 : 1.0);
+  }
+  double allowed() const { return model_.memory * comm_.size(); }  // all hold parts of the factors
+
+  // The coarsest matrix may be singular where the whole is not, as with constraints as equations.
+  // @return whether it is regular and there was memory to find out
+  bool factor_directly() {
+    Ordering ordering = order_rows(*matrix_, comm_);
+    return need_of(ordering) <= allowed() && take_mumps(std::move(ordering));
+  }
+
+  bool take_mumps(Ordering ordering) {
+    multigrid_.reset();
+    is_stale_ = true;
+    direct_ = make_mumps(matrix_, std::move(ordering), comm_);
+    return direct_->factor();
+  }
+
   LinearResidual solve_directly(const Vector& b, Vector& x) {
     Ordering ordering = order_rows(*matrix_, comm_);
-    const double need = 8.0 * ordering.fill.entries * (is_symmetric_ ? 0.5 : 1.0);
-    const double allowed = model_.memory * comm_.size();  // all ranks hold parts of the factors
-    if (need > allowed) {
+    const double need = need_of(ordering);
+    if (need > allowed()) {
       throw NumericalError(fmt::format(
           "The iterative solver did not converge in {} iterations, and the factors of MUMPS would "
           "need {:.2g} GB,\nmore than the {:.2g} GB that are allowed.\n"
           "Try: smaller steps, thicker or fewer elements, or more memory.",
-          most_iterations, 1e-9 * need, 1e-9 * allowed));
+          most_iterations, 1e-9 * need, 1e-9 * allowed()));
     }
     ++failed_;
-    multigrid_.reset();
-    is_stale_ = true;
-    direct_ = make_mumps(matrix_, std::move(ordering), comm_);
-    if (!direct_->factor()) return useless;
-    return direct_->solve(b, x);
+    return take_mumps(std::move(ordering)) ? direct_->solve(b, x) : useless;
   }
 
   Teuchos::RCP<const CrsMatrix> matrix_;
