@@ -3,6 +3,7 @@
 #include <culm/base/error.hpp>
 #include <culm/math/types.hpp>
 
+#include "blocks.hpp"
 #include "serial_rows.hpp"
 
 #include <Teuchos_Array.hpp>
@@ -79,6 +80,7 @@ std::vector<bool> Substructures::find_interface(const std::vector<int>& owners) 
       if (owners[index(column)] < comm_.rank()) rows.values()[row] = 1.0;
     });
   }
+  add_followers(rows.values());
   Vector columns(assembly::rows_of(matrix_->getColMap()));
   const auto importer = matrix_->getGraph()->getImporter();
   if (importer.is_null()) {
@@ -88,6 +90,32 @@ std::vector<bool> Substructures::find_interface(const std::vector<int>& owners) 
   }
   const auto values = columns.values();
   return {values.begin(), values.end()};
+}
+
+// What meets one node of this rank and nothing else, as the forces that keep its directors rigid,
+// has no pivots without it. @param is_interface  of each row, 0 or 1
+void Substructures::add_followers(std::span<double> is_interface) const {
+  const Blocks blocks = find_blocks(BlockRows(*matrix_));
+  const std::vector<int> block_of = block_of_row(blocks);
+  constexpr int none = -1, several = -2;
+  int row = 0;
+  auto column = blocks.columns.begin();
+  for (int b = 0; b < static_cast<int>(blocks.sizes.size()); ++b) {
+    int leader = none;  // the first row of the only block that this one meets
+    for (int k = 0; k < blocks.widths[index(b)]; ++k, ++column) {
+      const int met = matrix_->getRowMap()->getLocalElement(
+          matrix_->getColMap()->getGlobalElement(static_cast<int>(*column)));
+      if (met >= 0 && block_of[index(met)] == b) continue;
+      if (leader == none && met >= 0) leader = met;
+      const bool is_same =
+          met >= 0 && leader >= 0 && block_of[index(met)] == block_of[index(leader)];
+      if (!is_same) leader = several;
+    }
+    const bool follows = leader >= 0 && is_interface[index(leader)] != 0.0;
+    for (int i = 0; i < blocks.sizes[index(b)]; ++i, ++row) {
+      if (follows) is_interface[index(row)] = 1.0;
+    }
+  }
 }
 
 // Of this rank, those of the interface and those of the interior.

@@ -18,9 +18,9 @@
 
 namespace culm::solver {
 
-/// Unknowns that meet one of a lower rank are the interface; all others are interior, and those of
-/// two ranks never meet. So each rank eliminates its interior alone, and what that leaves of the
-/// interface,
+/// Unknowns that meet one of a lower rank are the interface, and those of this rank that meet one
+/// node of it and nothing else; all others are interior, and those of two ranks never meet. So each
+/// rank eliminates its interior alone, and what that leaves of the interface,
 ///
 ///     S = A_BB - sum over ranks of A_BI A_II^-1 A_IB,
 ///
@@ -104,6 +104,7 @@ class Substructures {
   std::size_t find_entry(long long row, long long column) const;
   std::vector<int> owners_of_columns() const;
   std::vector<bool> find_interface(const std::vector<int>& owners) const;
+  void add_followers(std::span<double> is_interface) const;
   void find_rows(const std::vector<bool>& is_interface);
   void build_piece(const std::vector<int>& owners, const std::vector<bool>& is_interface);
   void build_interface(const std::vector<bool>& is_interface);

@@ -46,6 +46,26 @@ TEST(SubstructuredSolver, PartsOfChainsAndTreesStandAlone) {
   }
 }
 
+// Each node has forces of its own, as those that keep directors rigid.
+TEST(SubstructuredSolver, ForcesOnANodeBetweenPartsStayWithIt) {
+  constexpr int nodes = 20;
+  Skeleton s = chain(nodes, [](int) { return 12; });
+  for (int node = 0; node < nodes; ++node) {
+    s.sizes.push_back(6);
+    s.hollow.push_back(nodes + node);
+    s.edges.emplace_back(node, nodes + node);
+  }
+  const SpreadSystem A(
+      s, [](int block, int blocks, int ranks) { return (block % nodes) * ranks / (blocks / 2); });
+  const auto solver = make_substructured(A.matrix, A.comm);
+  ASSERT_TRUE(solver->factor());
+  EXPECT_FALSE(is_whole(*solver)) << solver->remark();
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(s.rows(), -1.0, 2.0);
+  Vector found(A.rows);
+  EXPECT_TRUE(solver->solve(A.distribute(A.dense * x), found).is_sound());
+  EXPECT_LT(A.difference(found, x), 1e-8);
+}
+
 // Two bodies on the first rank that a joint on the second holds to each other and to the rest.
 TEST(SubstructuredSolver, APartThatCannotStandAloneIsFactoredWithTheOthers) {
   const Skeleton s = bodies(20, false);
