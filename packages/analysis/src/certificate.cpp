@@ -279,7 +279,8 @@ std::string Certificate::excuse(bool is_rounding) const {
 std::vector<Certificate::Line> Certificate::lines() const {
   const double moved = moved_by_rounding();
   std::vector<Line> lines = {{"energy balance", relative(energy_drift_, energy_scale()),
-                              energy_promise, excuse(largest_energy() <= moved)}};
+                              energy_promise,
+                              excuse(largest_energy() <= moved || largest_amount_ == 0.0)}};
   if (is_free_) {
     // what stands in equilibrium may hold much energy, and has no momentum but that of rounding
     const double momentum = std::sqrt(2.0 * system_.model().mass() * moved);

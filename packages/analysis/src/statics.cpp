@@ -144,10 +144,25 @@ void Statics::do_begin() {
     const solver::Determinant first = context().linear.determinant();
     determinant_sign_ = first.sign;
     first_log_size_ = first.log_size;
+    tell_unwatched(first.sign != 0);
   }
   make_newton(settings_.newton);
   newton().hold_free(hangs_);
   if (hangs_) try_hanging();
+}
+
+// Where stability may be lost without a word.
+void Statics::tell_unwatched(bool has_determinant) {
+  if (!has_determinant) {
+    context().log.info(
+        fmt::format("note: '{}' knows no determinants, so whether equilibria are stable is not "
+                    "watched",
+                    context().linear.name()));
+  } else if (settings_.newton.refresh == solver::Refresh::on_slow_convergence) {
+    context().log.info(
+        "note: with 'Refresh' = On Slow Convergence, whether equilibria are stable is watched only "
+        "in steps that begin with new factors");
+  }
 }
 
 // Whether the first step leads to where nothing moves freely any more must be known before there

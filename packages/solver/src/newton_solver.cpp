@@ -12,8 +12,9 @@
 namespace culm::solver {
 namespace {
 
-// Newton's method ends far below the tolerance; with old factors or from a good first guess it ends
-// just below, step after step on the same side, and what adds up over many steps would show it.
+// Newton's method ends far below the tolerance; with old factors, from a good first guess or where
+// something is left out of the tangent it ends just below, step after step on the same side, and
+// what adds up over many steps would show it.
 constexpr double lasting_share = 0.01;
 
 // So many times what the iteration can leave of a residual is rounding and no remainder.
@@ -46,9 +47,11 @@ class BalanceTest final : public NOX::StatusTest::Generic {
     const NewtonSettings& settings = problem_.settings;
     history_.push_back(
         {e.force_scale > 0.0 ? e.force_residual / e.force_scale : 0.0, e.constraint_violation});
-    const bool at_once = problem_.stencil.inertia != 0.0 && history_.size() <= 2;
-    const bool lasts = settings.refresh == Refresh::on_slow_convergence || at_once;
-    const double share = lasts ? lasting_share : 1.0;
+    const bool moves = problem_.stencil.inertia != 0.0;
+    const bool lasts = settings.refresh == Refresh::on_slow_convergence ||
+                       (moves && (history_.size() <= 2 || !problem_.tangent_is_whole));
+    const bool may_go_on = static_cast<int>(history_.size()) <= settings.max_iterations;
+    const double share = lasts && may_go_on ? lasting_share : 1.0;
     const double limit = settings.force_tolerance * e.force_scale;
     held_unknown_.reset();
     const bool forces =
@@ -114,7 +117,8 @@ class BalanceTest final : public NOX::StatusTest::Generic {
 bool has_whole_tangent(const model::Model& model) {
   return std::ranges::none_of(model.batches(), [](const model::Batch* batch) {
     const auto* partly = dynamic_cast<const model::LeftOutOfModes*>(batch);
-    return partly != nullptr && !partly->left_out_of_modes().empty();
+    return (partly != nullptr && !partly->left_out_of_modes().empty()) ||
+           dynamic_cast<const model::PartialTangent*>(batch) != nullptr;
   });
 }
 

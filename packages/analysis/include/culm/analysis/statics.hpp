@@ -55,6 +55,7 @@ class Statics final : public Stepper {
   double on_grid(double level) const;
   /// Whether the last stiffness resists some motion by no more than rounding.
   bool is_singular();
+  void tell_unwatched(bool has_determinant);
   /// Of the stiffness at the end of a step; 0 if unknown.
   int find_determinant_sign(const StepReport& report);
   /// Warns where the structure lost or regained its stability in an accepted step.

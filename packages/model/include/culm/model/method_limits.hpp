@@ -24,4 +24,11 @@ class LeftOutOfModes {
   virtual std::string left_out_of_modes() const = 0;
 };
 
+/// Forces whose tangent leaves something out, so that residuals of Newton's method fall by a
+/// constant factor at last.
+class PartialTangent {
+ public:
+  virtual ~PartialTangent() = default;
+};
+
 }  // namespace culm::model

@@ -26,6 +26,7 @@ namespace culm::water {
 /// nothing moves, and the sea is as it is at time 0. @source fluids B7
 class MorisonLoad final : public model::MemorylessBatch,
                           public model::LimitedRange,
+                          public model::PartialTangent,  // without the gradient of the waves
                           public flow::FluidForce {
  public:
   static constexpr int max_nodes = 8;
