@@ -45,6 +45,7 @@ struct NewtonProblem {
   bool direction_is_fresh = false;  ///< the last Newton direction is that of a new tangent
   bool holds_free = false;  ///< motions that nothing resists are held a little where a step begins
   bool tangent_is_whole = true;  ///< no load says that it leaves out something (`LeftOutOfModes`)
+  bool creeps = false;           ///< residuals fall by a constant factor at last (`PartialTangent`)
   bool singular = false;         ///< the last factorisation failed
   bool not_finite = false;       ///< the last solution is infinite or not a number
   double largest_increment = 0.0;

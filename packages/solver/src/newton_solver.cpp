@@ -49,7 +49,7 @@ class BalanceTest final : public NOX::StatusTest::Generic {
         {e.force_scale > 0.0 ? e.force_residual / e.force_scale : 0.0, e.constraint_violation});
     const bool moves = problem_.stencil.inertia != 0.0;
     const bool lasts = settings.refresh == Refresh::on_slow_convergence ||
-                       (moves && (history_.size() <= 2 || !problem_.tangent_is_whole));
+                       (moves && (history_.size() <= 2 || problem_.creeps));
     const bool may_go_on = static_cast<int>(history_.size()) <= settings.max_iterations;
     const double share = lasts && may_go_on ? lasting_share : 1.0;
     const double limit = settings.force_tolerance * e.force_scale;
@@ -117,8 +117,13 @@ class BalanceTest final : public NOX::StatusTest::Generic {
 bool has_whole_tangent(const model::Model& model) {
   return std::ranges::none_of(model.batches(), [](const model::Batch* batch) {
     const auto* partly = dynamic_cast<const model::LeftOutOfModes*>(batch);
-    return (partly != nullptr && !partly->left_out_of_modes().empty()) ||
-           dynamic_cast<const model::PartialTangent*>(batch) != nullptr;
+    return partly != nullptr && !partly->left_out_of_modes().empty();
+  });
+}
+
+bool has_partial_tangent(const model::Model& model) {
+  return std::ranges::any_of(model.batches(), [](const model::Batch* batch) {
+    return dynamic_cast<const model::PartialTangent*>(batch) != nullptr;
   });
 }
 
@@ -212,6 +217,7 @@ NewtonSolver::NewtonSolver(assembly::System& system, LinearSolver& linear,
   nox_->problem = std::make_shared<NewtonProblem>(
       NewtonProblem{system, linear, settings, ledger, factor_effect, solve_effect, nullptr, {}});
   nox_->problem->tangent_is_whole = has_whole_tangent(system.model());
+  nox_->problem->creeps = has_partial_tangent(system.model());
   nox_->group = Teuchos::rcp(new NewtonGroup(nox_->problem));
   nox_->balance = Teuchos::rcp(new BalanceTest(*nox_->problem));
   nox_->tests = Teuchos::rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
